@@ -1,0 +1,46 @@
+# Each target sets up .venv by itself when it is missing or older than what it is made from.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+PACKAGES := companion fakevehicle planner logs wire
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+.PHONY: help demo test check format bench pin clean
+help:            ## show this
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
+	$(BIN)/companion demo
+
+test: $(STAMP)   ## every test
+	$(BIN)/python -m pytest -q
+
+check: $(STAMP)  ## format, lint, types, import rules, fast tests
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python -m pytest -q -m "not udp and not slow"
+
+format: $(STAMP) ## rewrite the sources in the one format
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+bench: $(STAMP)  ## benchmarks: figures and ratios, minutes
+	$(BIN)/python -m benchmarks
+
+pin: $(STAMP)    ## write constraints.txt from what is installed now
+	{ head -1 constraints.txt; $(BIN)/pip freeze --all --exclude-editable | grep -v '^pip==' ; } > constraints.tmp && mv constraints.tmp constraints.txt
+
+clean:           ## remove the environment and caches
+	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info
+	find $(PACKAGES) tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+
+$(STAMP): pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(None if v >= (3, 11) else f"companion needs Python 3.11 or newer, found {v[0]}.{v[1]}: make PYTHON=python3.11 ...")'
+	@echo "setting up $(VENV) (half a minute to a few, most of it downloads)"
+	@$(PYTHON) -m venv --clear $(VENV)
+	@$(BIN)/python -m pip install -q -c constraints.txt setuptools
+	@$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e '.[dev]'
+	@touch $@

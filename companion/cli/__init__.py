@@ -1,0 +1,1 @@
+"""The command line: the only place that wires cores, drivers, recorder and the bundled vehicle together."""

@@ -1,0 +1,134 @@
+"""`companion`: the commands, and what becomes of errors.
+
+Exit codes: 0 ok, 1 the flight or its input failed, 2 usage, 3 a verification failed. A known error is one clear line on
+stderr without a traceback. Heavy imports happen inside the commands, so that `--help` answers at once.
+"""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(
+    name="companion",
+    help="Plan collision-free trajectories, fly them over MAVLink, record everything.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+log_app = typer.Typer(help="Look into recordings.", no_args_is_help=True)
+app.add_typer(log_app, name="log")
+
+MissionFile = Annotated[Path, typer.Argument(metavar="MISSION", help="Mission file (YAML).")]
+LogFile = Annotated[Path, typer.Argument(metavar="LOG", help="Recording (MCAP).")]
+Seed = Annotated[int, typer.Option(help="Seed of everything random: planner, and simulated sensors.", min=0)]
+Json = Annotated[bool, typer.Option("--json", help="Print exactly one JSON object on stdout.")]
+RecordDirectory = Annotated[Path, typer.Option("--record", metavar="DIR", help="Directory for the recording.")]
+Outs = Annotated[list[str] | None, typer.Option("--out", metavar="URL", help="Forward to and from a ground station.")]
+
+RECORDINGS = Path("recordings")
+
+
+@app.command()
+def demo(record: RecordDirectory = RECORDINGS, out: Outs = None, seed: Seed = 1, json: Json = False) -> None:
+    """Fly the L-shaped wall with the bundled vehicle, over UDP, recorded. Needs nothing else."""
+    from companion.cli.fly import fly_demo
+
+    raise typer.Exit(fly_demo(record, out or [], seed, json))
+
+
+@app.command()
+def fly(
+    mission: MissionFile,
+    master: Annotated[str, typer.Option(metavar="URL", help="Where the vehicle is, e.g. udpin:127.0.0.1:14540.")],
+    out: Outs = None,
+    record: RecordDirectory = RECORDINGS,
+    seed: Seed = 1,
+    system_id: Annotated[
+        int | None, typer.Option(help="Obey only this vehicle (default: the first heard).", min=1, max=255)
+    ] = None,
+    wait: Annotated[float, typer.Option(help="How long to wait for the vehicle's first HEARTBEAT [s].", min=0.1)] = 60.0,
+    json: Json = False,
+) -> None:
+    """Fly a mission on a vehicle behind a MAVLink/UDP endpoint."""
+    from companion.cli.fly import fly_mission
+
+    raise typer.Exit(fly_mission(mission, master, out or [], record, seed, system_id, wait, json))
+
+
+@app.command()
+def simulate(
+    mission: MissionFile,
+    seed: Seed = 1,
+    record: Annotated[Path | None, typer.Option("--record", metavar="FILE", help="Keep the recording here.")] = None,
+    json: Json = False,
+) -> None:
+    """Fly a mission in lockstep: same cores, no sockets, as fast as the CPU allows, repeatable to the byte."""
+    from companion.cli.simulate import simulate_mission
+
+    raise typer.Exit(simulate_mission(mission, seed, record, json))
+
+
+@app.command()
+def plan(
+    mission: MissionFile,
+    seed: Seed = 1,
+    plot: Annotated[Path | None, typer.Option("--plot", metavar="FILE.png", help="Draw the plan.")] = None,
+    json: Json = False,
+) -> None:
+    """Plan every leg of a mission without flying it."""
+    from companion.cli.plan import plan_mission
+
+    raise typer.Exit(plan_mission(mission, seed, plot, json))
+
+
+@app.command()
+def replay(
+    log: LogFile,
+    to: Annotated[str, typer.Option(metavar="URL", help="Ground station, e.g. udpout:127.0.0.1:14550.")],
+    rate: Annotated[float, typer.Option("-r", "--rate", help="Speed, 1 is real time.", min=0.001)] = 1.0,
+    json: Json = False,
+) -> None:
+    """Send a recording's vehicle traffic to a ground station, with its original spacing."""
+    from companion.cli.replay import replay_log
+
+    raise typer.Exit(replay_log(log, to, rate, json))
+
+
+@app.command()
+def rerun(log: LogFile, json: Json = False) -> None:
+    """Feed a recording's inputs to a fresh companion and compare every output, bit for bit (exit 3: they differ)."""
+    from companion.cli.rerun import rerun_log
+
+    raise typer.Exit(rerun_log(log, json))
+
+
+@log_app.command("info")
+def log_info(log: LogFile, json: Json = False) -> None:
+    """What a recording holds."""
+    from companion.cli.log import show_info
+
+    raise typer.Exit(show_info(log, json))
+
+
+def main() -> None:
+    """Console script; turns known errors into one line and exit code 1."""
+    try:
+        app()
+    except Exception as error:
+        roots = _known_errors()
+        if not isinstance(error, roots):
+            raise
+        print(f"companion: {error}", file=sys.stderr)
+        sys.exit(2 if type(error).__name__ == "EndpointError" else 1)
+
+
+def _known_errors() -> tuple[type[Exception], ...]:
+    from companion.errors import CompanionError
+    from logs.errors import LogsError
+    from planner.errors import PlannerError
+    from wire.errors import WireError
+
+    return (CompanionError, LogsError, PlannerError, WireError)

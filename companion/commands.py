@@ -1,0 +1,79 @@
+"""One COMMAND_LONG at a time: sent, repeated until it is answered, and given up after a while.
+
+UDP loses datagrams and autopilots are sometimes busy, so a command is sent again each 0.5 s with `confirmation` counted
+up, as the MAVLink command protocol asks; IN_PROGRESS and TEMPORARILY_REJECTED keep it alive.
+"""
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+from companion.telemetry import Ack
+from wire.dialect import mavlink
+
+REPEAT_US = 500_000
+TRIES = 10
+
+
+class Outcome(Enum):
+    PENDING = "pending"
+    ACCEPTED = "accepted"
+    REFUSED = "refused"
+    UNANSWERED = "unanswered"
+
+
+@dataclass(slots=True)
+class Command:
+    """A command on its way.
+
+    Attributes
+    ----------
+    command : MAV_CMD.
+    parameters : up to seven, the rest are 0.
+    what : what it is for, for people ("arm", "switch to OFFBOARD").
+    """
+
+    command: int
+    parameters: tuple[float, ...]
+    what: str
+    outcome: Outcome = Outcome.PENDING
+    result: int | None = None  # MAV_RESULT of the last answer
+    sent: int = 0
+    _next_us: int = field(default=0)
+
+    def due(self, now_us: int) -> bool:
+        """Whether it should be sent now; counts the tries and gives up after `TRIES`."""
+        if self.outcome is not Outcome.PENDING or now_us < self._next_us:
+            return False
+        if self.sent >= TRIES:
+            self.outcome = Outcome.UNANSWERED
+            return False
+        self.sent += 1
+        self._next_us = now_us + REPEAT_US
+        return True
+
+    def answered(self, ack: Ack) -> None:
+        """Take an acknowledgement; one for another command changes nothing."""
+        if ack.command != self.command or self.outcome is not Outcome.PENDING:
+            return
+        self.result = ack.result
+        if ack.result == mavlink.MAV_RESULT_ACCEPTED:
+            self.outcome = Outcome.ACCEPTED
+        elif ack.result not in (mavlink.MAV_RESULT_IN_PROGRESS, mavlink.MAV_RESULT_TEMPORARILY_REJECTED):
+            self.outcome = Outcome.REFUSED
+
+    def message(self, target_system: int) -> mavlink.MAVLink_command_long_message:
+        values = (*self.parameters, *[0.0] * (7 - len(self.parameters)))
+        confirmation = min(self.sent - 1, 255)
+        return mavlink.MAVLink_command_long_message(target_system, 1, self.command, confirmation, *values)
+
+    def failure(self) -> str:
+        """Why it failed, in one clause."""
+        if self.outcome is Outcome.UNANSWERED:
+            last = "" if self.result is None else f" (last answer {_result_name(self.result)})"
+            return f"no acceptance of '{self.what}' after {self.sent} tries{last}"
+        return f"the vehicle refused to {self.what}: {_result_name(self.result or 0)}"
+
+
+def _result_name(result: int) -> str:
+    entry = mavlink.enums["MAV_RESULT"].get(result)
+    return entry.name if entry is not None else f"result {result}"

@@ -1,0 +1,367 @@
+"""The companion as a step machine: `Companion.step(now_us, inputs) -> outputs`.
+
+One tick, in this order:
+1. take the inputs: telemetry from the vehicle, plans, the operator; forward what ground stations and vehicle say to
+   each other;
+2. look at what happened and move to the next phase at most once (`phases.py` is the table);
+3. do the phase's work: ask, wait, or walk the mission's steps;
+4. stream: HEARTBEAT at 1 Hz, a setpoint every tick from ENGAGING on.
+
+No clock, no socket, no randomness, no logging: the same inputs at the same `now_us` give the same outputs, which is what
+makes a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from companion.autopilots.base import Autopilot
+from companion.autopilots.px4 import Px4
+from companion.commands import Command, Outcome
+from companion.itinerary import Itinerary
+from companion.mission import Mission
+from companion.offboard import setpoint_message
+from companion.phases import OVER, STREAMING, Event, Phase, after
+from companion.seam import Input, Level, Note, OperatorCommand, Output, PlanReady, Reference
+from companion.telemetry import Telemetry
+from wire.datagram import Address, Datagram
+from wire.dialect import mavlink
+from wire.framing import Framer, Packet
+
+VEHICLE_LINK = "autopilot"
+"""The link toward the vehicle; every other link is a ground station's."""
+
+COMPONENT_ID = mavlink.MAV_COMP_ID_ONBOARD_COMPUTER
+AUTOPILOT_COMPONENT = mavlink.MAV_COMP_ID_AUTOPILOT1
+HEARTBEAT_US = 1_000_000
+VEHICLE_SILENT_US = 3_000_000
+PARAMETER_WAIT_US = 2_000_000
+STREAM_BEFORE_ASKING_US = 500_000
+"""PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
+
+
+@dataclass(frozen=True, slots=True)
+class CompanionConfig:
+    """What a flight needs to know beside the mission; kept in the recording, so that a re-run has it too."""
+
+    seed: int = 0
+    system_id: int | None = None  # obey only this vehicle; None: the first autopilot heard
+    ground_links: tuple[str, ...] = ()
+    wait_vehicle_s: float = 60.0
+    wait_ready_s: float = 120.0
+    wait_plan_s: float = 60.0
+
+
+class Companion:
+    """One flight of one mission.
+
+    Attributes
+    ----------
+    phase : where the flight is (`phases.Phase`).
+    failure : why it is FAILED or HANDED_OVER, in one line; empty otherwise.
+    telemetry, itinerary : for progress lines; read only.
+    foreign_packets : packets of other systems on the vehicle's link, recorded but not obeyed.
+    """
+
+    TICK_US = 20_000  # 50 Hz
+
+    def __init__(self, mission: Mission, config: CompanionConfig) -> None:
+        self.mission = mission
+        self.config = config
+        self.phase = Phase.CONNECTING
+        self.failure = ""
+        self.telemetry = Telemetry()
+        self.itinerary = Itinerary(mission, config.seed)
+        self.autopilot: Autopilot = Px4()
+        self.origin_n = np.zeros(3)  # the mission frame's origin in the vehicle's local frame, fixed on the ground
+        self.foreign_packets = 0
+        self.framer = Framer()
+        self._vehicle: int | None = config.system_id
+        self._vehicle_peer: Address | None = None
+        self._heard_us: int | None = None
+        self._mav = mavlink.MAVLink(None)
+        self._sequence = 0
+        self._started_us: int | None = None
+        self._entered_us = 0
+        self._heartbeat_due_us = 0
+        self._command: Command | None = None
+        self._queue: list[Command] = []
+        self._land_asked = False
+        self._plan_refusal = ""
+        self._was_landing = False
+        self._readiness: tuple[str, ...] = ()
+
+    # ---- one tick -----------------------------------------------------------------------------------------------
+
+    def step(self, now_us: int, inputs: Iterable[Input]) -> list[Output]:
+        """Take what arrived since the last tick and say what leaves now.
+
+        Parameters
+        ----------
+        now_us : the driver's clock [us], never running backwards.
+        inputs : in the order of their arrival.
+
+        Returns
+        -------
+        Datagrams to send, plans wanted, the reference flown (in STREAMING phases), and notes, in order.
+        """
+        if self._started_us is None:
+            self._started_us = self._entered_us = self._heartbeat_due_us = now_us
+        out: list[Output] = []
+        for item in inputs:
+            self._take(now_us, item, out)
+        self._report_texts(out)
+        if self.phase not in OVER:
+            self._answer_command(out)
+            event = self._event(now_us, out)
+            if event is not None:
+                self._move(now_us, event, out)
+            self._work(now_us, out)
+        self._stream(now_us, out)
+        return out
+
+    @property
+    def over(self) -> bool:
+        """Whether the companion has nothing more to do."""
+        return self.phase in OVER
+
+    # ---- 1. inputs ----------------------------------------------------------------------------------------------
+
+    def _take(self, now_us: int, item: Input, out: list[Output]) -> None:
+        match item:
+            case Datagram(link=link, data=data, peer=peer) if link == VEHICLE_LINK:
+                for packet in self.framer.packets(data):
+                    self._hear(now_us, packet, peer)
+                out.extend(Datagram(ground, data) for ground in self.config.ground_links)
+            case Datagram(link=link, data=data) if link in self.config.ground_links:
+                out.append(Datagram(VEHICLE_LINK, data, self._vehicle_peer))
+            case PlanReady():
+                self._take_plan(item, out)
+            case OperatorCommand.LAND:
+                self._land_asked = True
+
+    def _hear(self, now_us: int, packet: Packet, peer: Address | None) -> None:
+        """Obey only the configured vehicle's autopilot, or the first autopilot that says it is one."""
+        if self._vehicle is None and packet.message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT:
+            heartbeat = self._mav.decode(bytearray(packet.raw))
+            if packet.component_id == AUTOPILOT_COMPONENT and heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID:
+                self._vehicle = packet.system_id
+        if packet.system_id != self._vehicle or packet.component_id != AUTOPILOT_COMPONENT:
+            self.foreign_packets += 1
+            return
+        self._heard_us, self._vehicle_peer = now_us, peer
+        self.telemetry.take(now_us, packet, self._mav)
+
+    def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
+        leg = f"leg {ready.request_id}"
+        if ready.trajectory is None or not ready.certified:
+            self._plan_refusal = f"{leg}: {ready.error or 'not certified'}: {ready.text}"
+            return
+        self.itinerary.take(ready.request_id, ready.trajectory)
+        duration, how = ready.trajectory.duration, f"{ready.method}, {ready.cpu_ms:.1f} ms"
+        text = f"{leg} planned: {ready.length:.2f} m in {duration:.2f} s, clear by {ready.clearance:.2f} m ({how})"
+        out.append(Note(Level.INFO, text))
+
+    def _report_texts(self, out: list[Output]) -> None:
+        for severity, text in self.telemetry.texts:
+            level = Level.ERROR if severity <= 3 else Level.WARNING if severity == 4 else Level.INFO
+            out.append(Note(level, f"vehicle: {text}"))
+        self.telemetry.texts.clear()
+
+    def _answer_command(self, out: list[Output]) -> None:
+        for ack in self.telemetry.acks:
+            if self._command is not None:
+                self._command.answered(ack)
+        self.telemetry.acks.clear()
+
+    # ---- 2. what happened ---------------------------------------------------------------------------------------
+
+    def _event(self, now_us: int, out: list[Output]) -> Event | None:
+        """The one event of this tick, most urgent first."""
+        if self._heard_us is not None and now_us - self._heard_us > VEHICLE_SILENT_US:
+            self.failure = f"nothing heard from the vehicle for {(now_us - self._heard_us) / 1e6:.1f} s"
+            return Event.VEHICLE_SILENT
+        if self._land_asked and self.phase is not Phase.LANDING:
+            self._land_asked = False
+            self.failure = "cancelled by the operator" + (", landing" if self.phase is Phase.FLYING else "")
+            return Event.LAND_ASKED
+        return WATCH[self.phase](self, now_us, out)
+
+    def _connecting(self, now_us: int, out: list[Output]) -> Event | None:
+        if self.telemetry.heartbeat_us is not None:
+            if self.telemetry.autopilot != mavlink.MAV_AUTOPILOT_PX4:
+                return self._refused(f"autopilot type {self.telemetry.autopilot} found, expected PX4 (12)")
+            return Event.VEHICLE_HEARD
+        if now_us - self._entered_us > self.config.wait_vehicle_s * 1e6:
+            return self._refused(f"no HEARTBEAT from a vehicle in {self.config.wait_vehicle_s:g} s")
+        return None
+
+    def _preparing(self, now_us: int, out: list[Output]) -> Event | None:
+        waited_us = now_us - self._entered_us
+        if self._command is not None and self._command.outcome is not Outcome.PENDING:
+            if self._command.outcome is not Outcome.ACCEPTED:
+                out.append(Note(Level.WARNING, self._command.failure()))
+            self._command = None
+        unread = any(not raw for raw in self.telemetry.parameters.values()) and waited_us < PARAMETER_WAIT_US
+        reasons = tuple(self.autopilot.not_ready(now_us, self.telemetry))
+        if reasons != self._readiness:
+            self._readiness = reasons
+            out.append(Note(Level.INFO, "vehicle ready" if not reasons else f"waiting: {', '.join(reasons)}"))
+        if not reasons and not self._queue and self._command is None and not unread:
+            return Event.READY
+        if waited_us > self.config.wait_ready_s * 1e6:
+            return self._refused(f"the vehicle is not ready after {waited_us / 1e6:.0f} s: {', '.join(reasons)}")
+        return None
+
+    def _planning(self, now_us: int, out: list[Output]) -> Event | None:
+        if self._plan_refusal:
+            return self._refused(f"no plan: {self._plan_refusal}")
+        if self.itinerary.planned():
+            return Event.PLANS_READY
+        if now_us - self._entered_us > self.config.wait_plan_s * 1e6:
+            return self._refused(f"no plan after {self.config.wait_plan_s:g} s")
+        return None
+
+    def _engaging(self, now_us: int, out: list[Output]) -> Event | None:
+        if self._command_failed():
+            return Event.REFUSED
+        return Event.MODE_CONFIRMED if self.autopilot.in_control(self.telemetry) else None
+
+    def _arming(self, now_us: int, out: list[Output]) -> Event | None:
+        if self._command_failed():
+            return Event.REFUSED
+        if not self.autopilot.in_control(self.telemetry):
+            self.failure = f"the vehicle left {self.autopilot.offboard_mode} before it armed"
+            return Event.MODE_LOST
+        return Event.ARMED if self.telemetry.armed else None
+
+    def _flying(self, now_us: int, out: list[Output]) -> Event | None:
+        if not self.telemetry.armed:
+            self.failure = f"the vehicle disarmed in step {self.itinerary.index} ({self.itinerary.name()})"
+            return Event.DISARMED
+        if not self.autopilot.in_control(self.telemetry):
+            self.failure = f"the vehicle left {self.autopilot.offboard_mode}; it is not fought for"
+            return Event.MODE_LOST
+        if self.itinerary.advance(now_us):
+            out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.name()}"))
+        return Event.STEPS_DONE if self.itinerary.finished() else None
+
+    def _landing(self, now_us: int, out: list[Output]) -> Event | None:
+        if not self.telemetry.armed:
+            return Event.DISARMED
+        landing = self.autopilot.is_landing(self.telemetry)
+        if self._was_landing and not landing:
+            self.failure = "the vehicle stopped landing; it is not fought for"
+            return Event.MODE_LOST
+        self._was_landing = landing
+        if self._command is not None and self._command.outcome in (Outcome.REFUSED, Outcome.UNANSWERED):
+            out.append(Note(Level.ERROR, f"{self._command.failure()}; asking again"))
+            self._command = self.autopilot.land()
+        return None
+
+    def _nothing(self, now_us: int, out: list[Output]) -> Event | None:
+        return None
+
+    def _refused(self, why: str) -> Event:
+        self.failure = why
+        return Event.REFUSED
+
+    def _command_failed(self) -> bool:
+        """Whether the command under way has come to nothing; `failure` then says how."""
+        command = self._command
+        if command is None or command.outcome in (Outcome.PENDING, Outcome.ACCEPTED):
+            return False
+        self.failure = command.failure()
+        return True
+
+    # ---- 3. the work of a phase ---------------------------------------------------------------------------------
+
+    def _move(self, now_us: int, event: Event, out: list[Output]) -> None:
+        """Walk the table and do what entering a phase asks for."""
+        before, self.phase = self.phase, after(self.phase, event)
+        if self.phase is before:
+            return
+        self._entered_us, self._command = now_us, None
+        bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
+        text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
+        out.append(Note(Level.ERROR if bad else Level.INFO, text))
+        match self.phase:
+            case Phase.PREPARING:
+                self._queue = self.autopilot.stream_requests()
+                self.telemetry.parameters = {name: b"" for name in self.autopilot.parameters_wanted()}
+                self._read_parameters(out)
+            case Phase.PLANNING:
+                out.extend(Note(Level.WARNING, text) for text in self.autopilot.warnings(self.telemetry))
+                out.extend(self.itinerary.wanted())
+            case Phase.ENGAGING:
+                self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
+                self.itinerary.yaw = self.telemetry.yaw
+            case Phase.ARMING:
+                self._command = self.autopilot.arm()
+            case Phase.FLYING:
+                self.itinerary.begin(now_us)
+            case Phase.LANDING:
+                self._command = self.autopilot.land()
+
+    def _work(self, now_us: int, out: list[Output]) -> None:
+        """Keep the command under way going; in PREPARING the next of the queue, in ENGAGING the mode."""
+        if self.phase is Phase.PREPARING and self._command is None and self._queue:
+            self._command = self._queue.pop(0)
+        if self.phase is Phase.ENGAGING and self._command is None:
+            if now_us - self._entered_us >= STREAM_BEFORE_ASKING_US:
+                self._command = self.autopilot.take_control()
+        if self._command is not None and self._command.due(now_us):
+            out.append(self._packet(self._command.message(self._target)))
+
+    def _read_parameters(self, out: list[Output]) -> None:
+        for name in self.telemetry.parameters:
+            request = mavlink.MAVLink_param_request_read_message(self._target, AUTOPILOT_COMPONENT, name.encode(), -1)
+            out.append(self._packet(request))
+
+    # ---- 4. streams ---------------------------------------------------------------------------------------------
+
+    def _stream(self, now_us: int, out: list[Output]) -> None:
+        if now_us >= self._heartbeat_due_us:
+            self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
+            out.append(self._packet(self._heartbeat()))
+        if self.phase not in STREAMING or self._was_landing:
+            return
+        reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned
+        time_boot_ms = (now_us - (self._started_us or 0)) // 1000
+        message = setpoint_message(reference, self.origin_n, time_boot_ms, self._target)
+        if message is not None:
+            out.append(reference)
+            out.append(self._packet(message))
+
+    def _heartbeat(self) -> Any:
+        state = mavlink.MAV_STATE_ACTIVE if self.phase in STREAMING else mavlink.MAV_STATE_STANDBY
+        kind = mavlink.MAV_TYPE_ONBOARD_CONTROLLER
+        return mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)
+
+    @property
+    def _target(self) -> int:
+        return self._vehicle or 0
+
+    def _packet(self, message: Any) -> Datagram:
+        """One message to the vehicle, from its own system id and our component."""
+        self._mav.srcSystem, self._mav.srcComponent = self._vehicle or 1, COMPONENT_ID
+        self._mav.seq = self._sequence
+        self._sequence = (self._sequence + 1) & 0xFF
+        return Datagram(VEHICLE_LINK, bytes(message.pack(self._mav)), self._vehicle_peer)
+
+
+WATCH: dict[Phase, Callable[[Companion, int, list[Output]], Event | None]] = {
+    Phase.CONNECTING: Companion._connecting,
+    Phase.PREPARING: Companion._preparing,
+    Phase.PLANNING: Companion._planning,
+    Phase.ENGAGING: Companion._engaging,
+    Phase.ARMING: Companion._arming,
+    Phase.FLYING: Companion._flying,
+    Phase.LANDING: Companion._landing,
+    Phase.DONE: Companion._nothing,
+    Phase.FAILED: Companion._nothing,
+    Phase.HANDED_OVER: Companion._nothing,
+}
+"""What each phase watches for."""

@@ -1,0 +1,75 @@
+"""Real time: the same core over UDP sockets and the monotonic clock, in one thread.
+
+Absolute deadlines: the driver receives until the next one, steps, sends, and hands the tick to the taps. A late tick is
+counted and never made up by a burst. `now_us` is microseconds since the epoch as of the start, advanced by the monotonic
+clock, so that a step of the wall clock cannot bend a flight.
+"""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from companion.core import Companion
+from companion.drivers.planning import Planning
+from companion.drivers.tick import Tap, Tick
+from companion.seam import Input, OperatorCommand, PlanWanted
+from wire.datagram import Datagram
+from wire.udp import UdpLink, wait
+
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """How well the driver kept time."""
+
+    ticks: int
+    late: int  # ticks that began more than half a period after their deadline
+    worst_late_ms: float
+
+
+def fly_realtime(
+    companion: Companion,
+    links: Mapping[str, UdpLink],
+    planning: Planning,
+    taps: Sequence[Tap],
+    *,
+    operator: Callable[[int], OperatorCommand | None],
+    stop: Callable[[], bool] = lambda: False,
+) -> Pace:
+    """Fly until the companion is done or `stop` says so (asked once a tick)."""
+    period_ns = companion.TICK_US * 1000
+    epoch_ns = time.time_ns() - time.monotonic_ns()
+    names = {id(link): name for name, link in links.items()}
+    sockets = list(links.values())
+    index, late, worst_ns = 0, 0, 0
+    deadline_ns = time.monotonic_ns() + period_ns
+    while not companion.over and not stop():
+        inputs: list[tuple[int, Input]] = []
+        while (left_ns := deadline_ns - time.monotonic_ns()) > 0:
+            for link in wait(sockets, left_ns / 1e9):
+                name = names[id(link)]
+                for got in link.receive():
+                    inputs.append(((got.received_ns + epoch_ns) // 1000, Datagram(name, got.data, got.peer)))
+        started_ns = time.monotonic_ns()
+        overdue_ns = started_ns - deadline_ns
+        worst_ns = max(worst_ns, overdue_ns)
+        late += overdue_ns > period_ns // 2
+        now_us = (started_ns + epoch_ns) // 1000
+        inputs.extend((now_us, ready) for ready in planning.ready())
+        asked = operator(now_us)
+        if asked is not None:
+            inputs.append((now_us, asked))
+        outputs = companion.step(now_us, [item for _, item in inputs])
+        for output in outputs:
+            if isinstance(output, Datagram):
+                links[output.link].send(output)
+            elif isinstance(output, PlanWanted):
+                planning.submit(output)
+        tick = Tick(index, now_us, inputs, outputs, (time.monotonic_ns() + epoch_ns) // 1000)
+        for tap in taps:
+            tap(tick)
+        index += 1
+        deadline_ns += period_ns
+        behind = (time.monotonic_ns() - deadline_ns) // period_ns
+        if behind > 0:  # whole periods were missed: they stay missed
+            deadline_ns += behind * period_ns
+    return Pace(index, late, worst_ns / 1e6)

@@ -1,0 +1,36 @@
+"""What can go wrong for the caller.
+
+CompanionError
+├── MissionError    a mission file that cannot be read or does not say what it must (file, where, found, expected)
+├── LinkError       no port, no vehicle, or no vehicle any more
+└── RerunError      a recording that cannot be re-run (not one of ours, or incomplete where it matters)
+
+What a peer does wrong is never an exception: it is counted, noted, or answered (see `companion.core`).
+"""
+
+
+class CompanionError(Exception):
+    """Root of everything the companion raises; its text is one line for a person."""
+
+
+class MissionError(CompanionError):
+    """A mission file is unreadable or invalid.
+
+    Attributes
+    ----------
+    file : the path as given.
+    problems : one line each, `line N: key: found ..., expected ...`.
+    """
+
+    def __init__(self, file: str, problems: list[str]) -> None:
+        self.file = file
+        self.problems = problems
+        super().__init__("\n".join(f"{file}: {problem}" for problem in problems))
+
+
+class LinkError(CompanionError):
+    """The link to the vehicle cannot be opened, or nobody answers on it."""
+
+
+class RerunError(CompanionError):
+    """A recording does not hold what a re-run needs."""

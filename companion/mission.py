@@ -1,0 +1,318 @@
+"""Missions: the YAML people write, checked once, and turned into the planner's words.
+
+Coordinates are named (north, east, altitude), never a bare triple whose sign must be guessed. Every problem is reported
+with file, line, key, what was found and what was expected, all at once. The file is read with PyYAML's safe loader.
+"""
+
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from companion.errors import MissionError
+from companion.seam import Vector
+from planner import Box, Cylinder, Limits, Sphere, World
+
+MAX_FILE_BYTES = 4_000_000
+"""A mission is written by people; beyond this it is something else."""
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+
+
+class _Model(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+
+
+class Range(_Model):
+    """A closed interval, written `[low, high]` [m]."""
+
+    low: Finite
+    high: Finite
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_pair(cls, value: Any) -> Any:
+        if isinstance(value, list | tuple) and len(value) == 2:
+            return {"low": value[0], "high": value[1]}
+        raise ValueError("expected a pair [low, high]")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> "Range":
+        if self.low >= self.high:
+            raise ValueError(f"expected low < high, found [{self.low:g}, {self.high:g}]")
+        return self
+
+
+class Extent(_Model):
+    """An axis-aligned block of space [m]."""
+
+    north: Range
+    east: Range
+    altitude: Range
+
+
+class Place(_Model):
+    """A point [m] from the world origin."""
+
+    north: Finite
+    east: Finite
+    altitude: Finite
+
+    def ned(self) -> Vector:
+        """The point in the mission frame, z down."""
+        return (self.north, self.east, -self.altitude)
+
+
+class CylinderShape(_Model):
+    """An upright cylinder [m]."""
+
+    north: Finite
+    east: Finite
+    radius: Positive
+    altitude: Range
+
+
+class SphereShape(_Model):
+    north: Finite
+    east: Finite
+    altitude: Finite
+    radius: Positive
+
+
+class Obstacle(_Model):
+    """Exactly one of box, cylinder and sphere."""
+
+    box: Extent | None = None
+    cylinder: CylinderShape | None = None
+    sphere: SphereShape | None = None
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> "Obstacle":
+        if sum(shape is not None for shape in (self.box, self.cylinder, self.sphere)) != 1:
+            raise ValueError("expected exactly one of box, cylinder, sphere")
+        return self
+
+
+class WorldModel(_Model):
+    bounds: Extent
+    obstacles: list[Obstacle] = Field(default_factory=list, max_length=100_000)
+
+
+class StartPose(_Model):
+    """Where the vehicle stands before the mission, on the ground at altitude 0, and where its nose points."""
+
+    north: Finite
+    east: Finite
+    heading_deg: Finite = 0.0
+
+
+class VehicleModel(_Model):
+    start: StartPose
+    radius: Positive = 0.35  # [m] half the tip-to-tip diagonal of an X500: 0.5 m wheelbase, 10 inch propellers
+
+
+class LimitsModel(_Model):
+    """What the trajectory may ask of the vehicle."""
+
+    speed: Positive = 3.0  # [m/s]
+    acceleration: Positive = 6.0  # [m/s^2]
+    jerk: Positive = 60.0  # [m/s^3]
+    climb: Positive = 1.0  # [m/s] vertical speed of the takeoff
+    clearance: NotNegative = 0.4  # [m] kept by the plan between the vehicle's hull and every obstacle
+
+
+class Takeoff(_Model):
+    altitude: Positive  # [m]
+
+
+class Hold(_Model):
+    seconds: NotNegative
+
+
+class Land(_Model):
+    pass
+
+
+class Step(_Model):
+    """Exactly one of takeoff, goto, hold and land."""
+
+    takeoff: Takeoff | None = None
+    goto: Place | None = None
+    hold: Hold | None = None
+    land: Land | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_land(cls, value: Any) -> Any:
+        return {"land": {}} if value == "land" or value == {"land": None} else value
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> "Step":
+        if sum(kind is not None for kind in (self.takeoff, self.goto, self.hold, self.land)) != 1:
+            raise ValueError("expected exactly one of takeoff, goto, hold, land")
+        return self
+
+
+class Wind(_Model):
+    """Velocity of the air over ground [m/s]."""
+
+    north: Finite = 0.0
+    east: Finite = 0.0
+    down: Finite = 0.0
+
+
+class Expect(_Model):
+    """What must be true of the flight; names and units are those of the verdict. None: not asked."""
+
+    tracking_error_p95_m: Positive | None = None  # against truth where the vehicle tells it, else the estimate
+    min_clearance_m: Finite | None = None
+    duration_max_s: Positive | None = None
+    setpoint_gap_p99_ms: Positive | None = None
+
+
+class Mission(_Model):
+    """A flight: where, in what, how, and what counts as success."""
+
+    name: Annotated[str, Field(min_length=1, max_length=100)]
+    vehicle: VehicleModel
+    world: WorldModel
+    limits: LimitsModel = LimitsModel()
+    method: Literal["haoaroa"] = "haoaroa"
+    steps: Annotated[list[Step], Field(min_length=2, max_length=10_000)]
+    wind: Wind = Wind()
+    expect: Expect = Expect()
+
+    @model_validator(mode="after")
+    def _flyable_order(self) -> "Mission":
+        for i, step in enumerate(self.steps):
+            first, last = i == 0, i == len(self.steps) - 1
+            if (step.takeoff is not None) != first:
+                raise ValueError(f"steps.{i}: expected takeoff as the first step and only there")
+            if (step.land is not None) != last:
+                raise ValueError(f"steps.{i}: expected land as the last step and only there")
+        return self
+
+    def start_m(self) -> Vector:
+        """Where the vehicle stands, in the mission frame."""
+        return (self.vehicle.start.north, self.vehicle.start.east, 0.0)
+
+    def heading(self) -> float:
+        """Where its nose points [rad]."""
+        return math.radians(self.vehicle.start.heading_deg)
+
+    def planner_limits(self) -> Limits:
+        return Limits(speed=self.limits.speed, acceleration=self.limits.acceleration, jerk=self.limits.jerk)
+
+    def planner_radius(self) -> float:
+        """Distance [m] the planned curve keeps from obstacles: the hull and the clearance."""
+        return self.vehicle.radius + self.limits.clearance
+
+    def planner_world(self) -> World:
+        """The world in the mission frame: altitude intervals turned upside down into z."""
+
+        def corners(e: Extent) -> tuple[Vector, Vector]:
+            low = (e.north.low, e.east.low, -e.altitude.high)
+            return low, (e.north.high, e.east.high, -e.altitude.low)
+
+        obstacles: list[Box | Cylinder | Sphere] = []
+        for obstacle in self.world.obstacles:
+            if obstacle.box is not None:
+                obstacles.append(Box(*corners(obstacle.box)))
+            elif obstacle.cylinder is not None:
+                c = obstacle.cylinder
+                z = (-c.altitude.high, -c.altitude.low)
+                obstacles.append(Cylinder(centre=(c.north, c.east), radius=c.radius, z=z))
+            elif obstacle.sphere is not None:
+                s = obstacle.sphere
+                obstacles.append(Sphere(centre=(s.north, s.east, -s.altitude), radius=s.radius))
+        return World(bounds=corners(self.world.bounds), obstacles=obstacles)
+
+
+def load_mission(path: str | Path) -> Mission:
+    """Read and check a mission file.
+
+    Raises
+    ------
+    MissionError : the file is missing, too large, not YAML, or not a mission; every problem has its own line.
+    """
+    file = str(path)
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise MissionError(file, [f"cannot be read: {error.strerror or error}"]) from error
+    return parse_mission(data, file)
+
+
+def parse_mission(data: bytes, file: str) -> Mission:
+    """Check a mission given as the bytes of its YAML file; `file` is its name in errors. Raises as `load_mission`."""
+    if len(data) > MAX_FILE_BYTES:
+        raise MissionError(file, [f"found {len(data)} bytes, expected at most {MAX_FILE_BYTES}"])
+    try:
+        text = data.decode("utf-8")
+        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, Loader=yaml.SafeLoader)):
+            raise MissionError(file, ["found a YAML alias (*name), expected every value written out"])
+        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        document = yaml.safe_load(text)
+    except UnicodeDecodeError as error:
+        raise MissionError(file, [f"byte {error.start}: not UTF-8 text"]) from error
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        raise MissionError(file, [f"line {line}: not YAML: {error.problem or error.context}"]) from error
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        raise MissionError(file, [f"not YAML: {' '.join(str(error).split())[:120]}"]) from error
+    if not isinstance(document, dict):
+        raise MissionError(file, [f"line 1: found {_shown(document)}, expected a mapping with name, vehicle, world, steps"])
+    try:
+        return Mission.model_validate(document)
+    except ValidationError as error:
+        raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
+
+
+def _problem(item: Any, root: yaml.Node | None) -> str:
+    """One pydantic error as `line N: key: found ..., expected ...`."""
+    keys = [key for key in item["loc"]]
+    line, key = _line(root, keys), ".".join(str(k) for k in keys) or "mission"
+    kind, message, context = item["type"], item["msg"].removeprefix("Value error, "), item.get("ctx", {})
+    if kind == "missing":
+        return f"line {line}: {key}: found nothing, expected a value"
+    if kind == "extra_forbidden":
+        return f"line {line}: {key}: found an unknown key, expected one that the mission format names"
+    if kind == "literal_error":
+        return f"line {line}: {key}: found {_shown(item['input'])}, expected {context.get('expected')}"
+    if kind == "value_error":
+        return f"line {line}: {key}: {message}" + ("" if "found" in message else f", found {_shown(item['input'])}")
+    expected = message.removeprefix("Input should be ").split(", unable")[0]
+    return f"line {line}: {key}: found {_shown(item['input'])}, expected {expected}"
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, dict):
+        return "a mapping with " + (", ".join(map(str, list(value)[:6])) or "no keys")
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    return "nothing" if value is None else repr(value)[:60]
+
+
+def _line(node: yaml.Node | None, keys: list[Any]) -> int:
+    """Line of the deepest node that the key path reaches."""
+    line = 1
+    for key in [*keys, None]:
+        if node is None:
+            break
+        line = node.start_mark.line + 1
+        if isinstance(node, yaml.MappingNode):
+            found = next(((k, v) for k, v in node.value if k.value == str(key)), None)
+            if found is None:
+                break
+            line, node = found[0].start_mark.line + 1, found[1]
+            if isinstance(node, yaml.ScalarNode):
+                break
+        elif isinstance(node, yaml.SequenceNode) and isinstance(key, int) and key < len(node.value):
+            node = node.value[key]
+        else:
+            break
+    return line

@@ -1,0 +1,250 @@
+"""How the flight went: measured from what crossed the seam, judged against the mission's `expect`.
+
+`FlightMeter` is a tap: it looks at every tick and keeps references, the vehicle's own position and, where the vehicle is
+a simulator that tells it, the truth (HIL_STATE_QUATERNION). `Verdict` is the table at the end.
+
+Tracking error is |position - reference| at the time of each position sample, the reference interpolated between ticks.
+It is taken in the mission frame: the estimate less the local origin that the companion fixed on the ground, and the truth
+relative to where it stood at that moment. So an estimator that is off by a constant when the flight begins is off in the
+truth error too, as it should be.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from companion.core import VEHICLE_LINK, Companion
+from companion.drivers.tick import Tick
+from companion.geodesy import local_ned
+from companion.mission import Mission
+from companion.phases import Phase
+from companion.seam import FloatArray, Reference
+from wire.datagram import Datagram
+from wire.dialect import mavlink
+from wire.framing import Framer
+
+TRUTH = mavlink.MAVLINK_MSG_ID_HIL_STATE_QUATERNION
+ESTIMATE = mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED
+SETPOINT = mavlink.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorStatistics:
+    """Of |position - reference| [m]."""
+
+    p50: float
+    p95: float
+    maximum: float
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """What the plots and the verdict are made from; all in the mission frame, time in seconds from the first reference."""
+
+    reference_s: FloatArray  # (n,)
+    reference_m: FloatArray  # (n, 3)
+    position_s: FloatArray  # (k,)
+    position_m: FloatArray  # (k, 3) truth where there is one, else the estimate
+    error: FloatArray  # (k,) [m]
+
+
+class FlightMeter:
+    """A tap that keeps what a verdict needs, and the numbers a progress line shows."""
+
+    def __init__(self, companion: Companion) -> None:
+        self._companion = companion
+        self._framer = Framer()
+        self._mav = mavlink.MAVLink(None)
+        self._references: list[tuple[float, ...]] = []  # now_us, x, y, z
+        self._estimates: list[tuple[float, ...]] = []  # received_us, x, y, z in n
+        self._truths: list[tuple[float, ...]] = []  # received_us, lat_e7, lon_e7, alt_mm
+        self._setpoints_us: list[int] = []
+        self._engaged_us: int | None = None
+        self._first_us: int | None = None
+        self._last_us = 0
+        self.airborne_us: list[int] = []  # [first, last] tick of Phase.FLYING
+
+    def __call__(self, tick: Tick) -> None:
+        self._first_us = tick.now_us if self._first_us is None else self._first_us
+        self._last_us = tick.now_us
+        for received_us, item in tick.inputs:
+            if isinstance(item, Datagram) and item.link == VEHICLE_LINK:
+                self._hear(received_us, item.data)
+        if self._companion.phase is Phase.FLYING:
+            self.airborne_us = [self.airborne_us[0] if self.airborne_us else tick.now_us, tick.now_us]
+        for output in tick.outputs:
+            if isinstance(output, Reference):
+                self._engaged_us = tick.now_us if self._engaged_us is None else self._engaged_us
+                self._references.append((tick.now_us, *output.position_m))
+                self._setpoints_us.append(tick.sent_us)
+
+    def _hear(self, received_us: int, data: bytes) -> None:
+        for packet in self._framer.packets(data):
+            if packet.message_id == ESTIMATE:
+                m: Any = self._mav.decode(bytearray(packet.raw))
+                self._estimates.append((received_us, m.x, m.y, m.z))
+            elif packet.message_id == TRUTH:
+                m = self._mav.decode(bytearray(packet.raw))
+                self._truths.append((received_us, m.lat, m.lon, m.alt))
+
+    @property
+    def tracking_error_now(self) -> float:
+        """Distance [m] of the newest estimate from the newest reference; NaN before both are there."""
+        if not self._references or not self._estimates:
+            return float("nan")
+        there = np.array(self._estimates[-1][1:]) - self._companion.origin_n
+        return float(np.linalg.norm(there - self._references[-1][1:]))
+
+    @property
+    def setpoint_rate_now(self) -> float:
+        """Over the last second [Hz]."""
+        recent = self._setpoints_us[-51:]
+        return (len(recent) - 1) * 1e6 / (recent[-1] - recent[0]) if len(recent) > 1 and recent[-1] > recent[0] else 0.0
+
+    @property
+    def duration_s(self) -> float:
+        return 0.0 if self._first_us is None else (self._last_us - self._first_us) / 1e6
+
+    def estimate_track(self) -> Track | None:
+        """The flight as the vehicle's estimator saw it; None when it never flew."""
+        return self._track(self._estimates, lambda rows: rows[:, 1:] - self._companion.origin_n)
+
+    def truth_track(self) -> Track | None:
+        """The flight as it was; None when the vehicle does not tell, or never flew."""
+        start = np.array(self._companion.mission.start_m())
+
+        def to_mission_frame(rows: FloatArray) -> FloatArray:
+            ned = local_ned(rows[:, 1], rows[:, 2], rows[:, 3])
+            assert self._engaged_us is not None
+            standing = ned[rows[:, 0] <= self._engaged_us]
+            return ned - (standing[-1] if len(standing) else ned[0]) + start
+
+        return self._track(self._truths, to_mission_frame)
+
+    def _track(self, samples: list[tuple[float, ...]], to_mission_frame: Any) -> Track | None:
+        if not samples or not self.airborne_us or len(self._references) < 2:
+            return None
+        rows, references = np.array(samples), np.array(self._references)
+        position = to_mission_frame(rows)
+        first, last = self.airborne_us
+        flown = (rows[:, 0] >= first) & (rows[:, 0] <= last)
+        if not flown.any():
+            return None
+        at, position = rows[flown, 0], position[flown]
+        wanted = np.column_stack([np.interp(at, references[:, 0], references[:, k]) for k in (1, 2, 3)])
+        t0 = references[0, 0]
+        return Track(
+            reference_s=(references[:, 0] - t0) / 1e6,
+            reference_m=references[:, 1:],
+            position_s=(at - t0) / 1e6,
+            position_m=position,
+            error=np.linalg.norm(position - wanted, axis=1),
+        )
+
+    def setpoint_gaps_ms(self) -> FloatArray:
+        """(n - 1,) spacing of the setpoints as they left [ms]."""
+        return np.diff(np.array(self._setpoints_us, dtype=np.float64)) / 1e3
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The flight in numbers, and whether that is what the mission expects. None: not known."""
+
+    ok: bool
+    mission: str
+    seed: int
+    phase: str
+    failure: str
+    failed_expectations: list[str]
+    duration_s: float
+    path_length_m: float | None
+    tracking_error_p50_m: float | None
+    tracking_error_p95_m: float | None
+    tracking_error_max_m: float | None
+    tracking_error_source: str | None  # "truth" or "estimate"
+    estimate_error_p50_m: float | None
+    estimate_error_p95_m: float | None
+    estimate_error_max_m: float | None
+    min_clearance_m: float | None
+    setpoint_rate_hz: float | None
+    setpoint_gap_p99_ms: float | None
+    setpoint_gap_max_ms: float | None
+    track: Track | None = field(repr=False)
+
+
+def judge(companion: Companion, meter: FlightMeter) -> Verdict:
+    """Measure a flight and hold it against `mission.expect`."""
+    mission = companion.mission
+    truth, estimate = meter.truth_track(), meter.estimate_track()
+    track = truth if truth is not None else estimate
+    flown, believed = _statistics(track), _statistics(estimate)
+    gaps = meter.setpoint_gaps_ms()
+    numbers: dict[str, float | None] = {
+        "tracking_error_p95_m": flown.p95 if flown else None,
+        "min_clearance_m": least_clearance(mission, track.position_m) if track else None,
+        "duration_max_s": meter.duration_s,
+        "setpoint_gap_p99_ms": float(np.percentile(gaps, 99)) if len(gaps) else None,
+    }
+    failed = failed_expectations(mission, numbers)
+    return Verdict(
+        ok=companion.phase is Phase.DONE and not failed and not companion.failure,
+        mission=mission.name,
+        seed=companion.config.seed,
+        phase=companion.phase.value,
+        failure=companion.failure,
+        failed_expectations=failed,
+        duration_s=meter.duration_s,
+        path_length_m=_length(track.position_m) if track else None,
+        tracking_error_p50_m=flown.p50 if flown else None,
+        tracking_error_p95_m=flown.p95 if flown else None,
+        tracking_error_max_m=flown.maximum if flown else None,
+        tracking_error_source=None if track is None else "truth" if truth is not None else "estimate",
+        estimate_error_p50_m=believed.p50 if believed else None,
+        estimate_error_p95_m=believed.p95 if believed else None,
+        estimate_error_max_m=believed.maximum if believed else None,
+        min_clearance_m=numbers["min_clearance_m"],
+        setpoint_rate_hz=float(1e3 / gaps.mean()) if len(gaps) else None,
+        setpoint_gap_p99_ms=numbers["setpoint_gap_p99_ms"],
+        setpoint_gap_max_ms=float(gaps.max()) if len(gaps) else None,
+        track=track,
+    )
+
+
+def failed_expectations(mission: Mission, numbers: dict[str, float | None]) -> list[str]:
+    """One line for each expectation that is not met: name, found, expected."""
+    failed = []
+    for name, bound in mission.expect.model_dump(exclude_none=True).items():
+        value = numbers[name]
+        at_least = name == "min_clearance_m"
+        sign = "at least" if at_least else "at most"
+        if value is None:
+            failed.append(f"{name}: not measured, expected {sign} {bound:g}")
+        elif value < bound if at_least else value > bound:
+            failed.append(f"{name}: found {value:.3f}, expected {sign} {bound:g}")
+    return failed
+
+
+def least_clearance(mission: Mission, position_m: FloatArray) -> float | None:
+    """Least distance [m] between the vehicle's hull (a ball) and an obstacle; None in an empty world."""
+    world = mission.planner_world()
+    if not world.obstacles:
+        return None
+    return float(np.min(world.signed_distance(position_m))) - mission.vehicle.radius
+
+
+def _statistics(track: Track | None) -> ErrorStatistics | None:
+    if track is None:
+        return None
+    p50, p95 = np.percentile(track.error, [50, 95])
+    return ErrorStatistics(float(p50), float(p95), float(track.error.max()))
+
+
+def _length(position_m: FloatArray) -> float:
+    """Length [m] of the path through the samples, thinned to a step of 0.1 m so that noise does not add to it."""
+    total, here = 0.0, position_m[0]
+    for there in position_m[1:]:
+        step = float(np.linalg.norm(there - here))
+        if step >= 0.1:
+            total, here = total + step, there
+    return total + float(np.linalg.norm(position_m[-1] - here))
