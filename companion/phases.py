@@ -72,7 +72,6 @@ TRANSITIONS: dict[tuple[Phase, Event], Phase] = {
     (Phase.FLYING, Event.DISARMED): Phase.FAILED,
     (Phase.FLYING, Event.VEHICLE_SILENT): Phase.FAILED,
     (Phase.LANDING, Event.DISARMED): Phase.DONE,
-    (Phase.LANDING, Event.REFUSED): Phase.HANDED_OVER,
     (Phase.LANDING, Event.MODE_LOST): Phase.HANDED_OVER,
     (Phase.LANDING, Event.VEHICLE_SILENT): Phase.FAILED,
 }

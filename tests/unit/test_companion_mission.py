@@ -1,0 +1,102 @@
+"""A mission file says what it must, or every problem gets its own line: where, what was found, what was expected."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from companion.errors import MissionError
+from companion.mission import load_mission, parse_mission
+
+GOOD = """\
+name: hop
+vehicle:
+  start: {north: 1, east: 2}
+world:
+  bounds: {north: [0, 20], east: [0, 20], altitude: [0, 4]}
+  obstacles:
+    - box: {north: [9, 10], east: [6, 15], altitude: [0, 3]}
+    - cylinder: {north: 5, east: 5, radius: 0.4, altitude: [1, 4]}
+    - sphere: {north: 3, east: 4, altitude: 2, radius: 0.5}
+steps:
+  - takeoff: {altitude: 1.5}
+  - goto: {north: 19, east: 10, altitude: 2}
+  - land
+"""
+
+
+def problems(text: str) -> list[str]:
+    with pytest.raises(MissionError) as caught:
+        parse_mission(text.encode(), "hop.yaml")
+    return caught.value.problems
+
+
+def test_a_good_mission_turns_altitudes_upside_down_into_ned():
+    mission = parse_mission(GOOD.encode(), "hop.yaml")
+    box, cylinder, sphere = mission.planner_world().obstacles
+    np.testing.assert_array_equal((box.lower, box.upper), ((9, 6, -3), (10, 15, 0)))
+    assert tuple(cylinder.z) == (-4, -1)
+    np.testing.assert_array_equal(sphere.centre, (3, 4, -2))
+    assert mission.steps[1].goto.ned() == (19, 10, -2)
+    assert mission.start_m() == (1, 2, 0)
+
+
+@pytest.mark.parametrize("path", sorted(Path("missions").glob("*.yaml")), ids=lambda p: p.stem)
+def test_every_mission_that_ships_is_a_good_one(path):
+    assert load_mission(path).name
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "words"),
+    [
+        ("altitude: 1.5", "altitude: high", 11, ["steps.0.takeoff.altitude", "'high'", "a valid number"]),
+        ("altitude: 1.5", "altitude: -1", 11, ["steps.0.takeoff.altitude", "-1", "greater than 0"]),
+        ("altitude: 1.5", "altitude: .inf", 11, ["steps.0.takeoff.altitude", "finite"]),
+        ("east: 10,", "eats: 10,", 12, ["steps.1.goto.eats", "unknown key"]),
+        ("east: 10,", "", 12, ["steps.1.goto.east", "found nothing", "expected a value"]),
+        ("north: [0, 20]", "north: [20, 0]", 5, ["world.bounds.north", "low < high", "[20, 0]"]),
+        ("north: [0, 20]", "north: 20", 5, ["world.bounds.north", "pair [low, high]", "20"]),
+        ("radius: 0.4", "radius: 0", 8, ["world.obstacles.1.cylinder.radius", "greater than 0"]),
+        ("- land", "- hover", 13, ["steps.2", "'hover'"]),
+        ("- land", "- hold: {seconds: 1}", 10, ["land as the last step"]),
+        ("  - takeoff: {altitude: 1.5}\n", "", 10, ["takeoff as the first step"]),
+        ("- sphere:", "- sphere: null\n      pyramid:", 10, ["world.obstacles.2.pyramid", "unknown key"]),
+    ],
+)
+def test_each_problem_names_its_line_its_key_what_was_found_and_what_was_expected(old, new, line, words):
+    assert old in GOOD
+    found = problems(GOOD.replace(old, new, 1))
+    text = next(p for p in found if words[0] in p)
+    for word in words:
+        assert word in text
+    if new:
+        assert f"line {line}:" in text
+
+
+def test_all_problems_are_told_at_once():
+    assert len(problems(GOOD.replace("altitude: 1.5", "altitude: x").replace("radius: 0.4", "radius: y"))) == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "expected a mapping"),
+        ("- a\n- b\n", "a list of 2"),
+        ("name: [unclosed", "not YAML"),
+        ("name: &a x\nvehicle: *a\n", "alias"),
+        ("name: !!python/object/apply:os.system ['true']", "not YAML"),
+    ],
+)
+def test_what_is_not_a_mission_at_all_is_said_in_one_line(text, words):
+    (problem,) = problems(text)
+    assert words in problem
+    assert "\n" not in problem
+
+
+def test_bytes_that_are_not_text_and_files_that_are_not_there_are_said_in_one_line(tmp_path):
+    with pytest.raises(MissionError, match="not UTF-8"):
+        parse_mission(b"\xff\xfe\x00", "x")
+    with pytest.raises(MissionError, match=r"missing\.yaml: cannot be read: No such file"):
+        load_mission(tmp_path / "missing.yaml")
+    with pytest.raises(MissionError, match="at most"):
+        parse_mission(b"#" * 5_000_000, "x")
