@@ -7,8 +7,8 @@ One tick, in this order:
 3. do the phase's work: ask, wait, or walk the mission's steps;
 4. stream: HEARTBEAT at 1 Hz, a setpoint every tick from ENGAGING on.
 
-No clock, no socket, no randomness, no logging: the same inputs at the same `now_us` give the same outputs, which is what
-makes a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing.
+No clock, no socket, no randomness, no logging: the same inputs at the same `now_us` give the same outputs, which makes
+a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing.
 """
 
 from collections.abc import Callable, Iterable
@@ -24,7 +24,7 @@ from companion.itinerary import Itinerary
 from companion.mission import Mission
 from companion.offboard import setpoint_message
 from companion.phases import OVER, STREAMING, Event, Phase, after
-from companion.seam import Input, Level, Note, OperatorCommand, Output, PlanReady, Reference
+from companion.seam import Input, Level, Note, OperatorCommand, Output, PlanReady
 from companion.telemetry import Telemetry
 from wire.datagram import Address, Datagram
 from wire.dialect import mavlink
@@ -49,6 +49,7 @@ class CompanionConfig:
     seed: int = 0
     system_id: int | None = None  # obey only this vehicle; None: the first autopilot heard
     ground_links: tuple[str, ...] = ()
+    speaks_first: bool = False  # the vehicle waits to be called (a udpout link) rather than calling us
     wait_vehicle_s: float = 60.0
     wait_ready_s: float = 120.0
     wait_plan_s: float = 60.0
@@ -309,9 +310,9 @@ class Companion:
         """Keep the command under way going; in PREPARING the next of the queue, in ENGAGING the mode."""
         if self.phase is Phase.PREPARING and self._command is None and self._queue:
             self._command = self._queue.pop(0)
-        if self.phase is Phase.ENGAGING and self._command is None:
-            if now_us - self._entered_us >= STREAM_BEFORE_ASKING_US:
-                self._command = self.autopilot.take_control()
+        streamed = now_us - self._entered_us >= STREAM_BEFORE_ASKING_US
+        if self.phase is Phase.ENGAGING and self._command is None and streamed:
+            self._command = self.autopilot.take_control()
         if self._command is not None and self._command.due(now_us):
             out.append(self._packet(self._command.message(self._target)))
 
@@ -325,7 +326,8 @@ class Companion:
     def _stream(self, now_us: int, out: list[Output]) -> None:
         if now_us >= self._heartbeat_due_us:
             self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
-            out.append(self._packet(self._heartbeat()))
+            if self._heard_us is not None or self.config.speaks_first:
+                out.append(self._packet(self._heartbeat()))
         if self.phase not in STREAMING or self._was_landing:
             return
         reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned

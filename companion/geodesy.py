@@ -14,8 +14,8 @@ ECCENTRICITY_SQUARED = 6.694379990141e-3  # WGS-84
 def local_ned(latitude_e7: FloatArray, longitude_e7: FloatArray, altitude_mm: FloatArray) -> FloatArray:
     """Positions relative to the first one, on the plane tangent there.
 
-    north = M dphi, east = N cos(phi) dlambda, with the meridian and prime-vertical radii of curvature (Groves, Principles
-    of GNSS, Inertial, and Multisensor Integrated Navigation Systems, 2nd ed., eq. 2.105, 2.106):
+    north = M dphi, east = N cos(phi) dlambda, with the meridian and prime-vertical radii of curvature (Groves,
+    Principles of GNSS, Inertial, and Multisensor Integrated Navigation Systems, 2nd ed., eq. 2.105, 2.106):
 
         M = a (1 - e^2) / (1 - e^2 sin^2 phi)^(3/2),   N = a / sqrt(1 - e^2 sin^2 phi)
 

@@ -14,7 +14,7 @@ from companion.seam import FloatArray, PlanWanted, Reference
 from planner import Limits, Trajectory
 
 SPOOL_UP_S = 1.0
-"""Between the vehicle saying that it is armed and the first climb: PX4 spools its motors up for COM_SPOOLUP_TIME, 1 s."""
+"""Between the word that it is armed and the first climb: PX4 spools its motors up for COM_SPOOLUP_TIME, 1 s."""
 
 Path = StraightMove | Trajectory
 

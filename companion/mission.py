@@ -239,18 +239,27 @@ def load_mission(path: str | Path) -> Mission:
     ------
     MissionError : the file is missing, too large, not YAML, or not a mission; every problem has its own line.
     """
-    file = str(path)
+    return parse_mission(read_mission_file(path), str(path))
+
+
+def read_mission_file(path: str | Path) -> bytes:
+    """The bytes of a mission file, as they go into the recording.
+
+    Raises
+    ------
+    MissionError : it cannot be read or is too large.
+    """
     try:
-        data = Path(path).read_bytes()
+        with Path(path).open("rb") as file:
+            return file.read(MAX_FILE_BYTES + 1)
     except OSError as error:
-        raise MissionError(file, [f"cannot be read: {error.strerror or error}"]) from error
-    return parse_mission(data, file)
+        raise MissionError(str(path), [f"cannot be read: {error.strerror or error}"]) from error
 
 
 def parse_mission(data: bytes, file: str) -> Mission:
     """Check a mission given as the bytes of its YAML file; `file` is its name in errors. Raises as `load_mission`."""
     if len(data) > MAX_FILE_BYTES:
-        raise MissionError(file, [f"found {len(data)} bytes, expected at most {MAX_FILE_BYTES}"])
+        raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
     try:
         text = data.decode("utf-8")
         if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, Loader=yaml.SafeLoader)):
@@ -265,7 +274,9 @@ def parse_mission(data: bytes, file: str) -> Mission:
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         raise MissionError(file, [f"not YAML: {' '.join(str(error).split())[:120]}"]) from error
     if not isinstance(document, dict):
-        raise MissionError(file, [f"line 1: found {_shown(document)}, expected a mapping with name, vehicle, world, steps"])
+        raise MissionError(
+            file, [f"line 1: found {_shown(document)}, expected a mapping with name, vehicle, world, steps"]
+        )
     try:
         return Mission.model_validate(document)
     except ValidationError as error:

@@ -1,4 +1,4 @@
-"""From a reference to the SET_POSITION_TARGET_LOCAL_NED that carries it; the type_mask is built here and nowhere else."""
+"""From a reference to the SET_POSITION_TARGET_LOCAL_NED that carries it; the only place that builds a type_mask."""
 
 from typing import Any
 
@@ -41,7 +41,7 @@ def type_mask(*, position: bool, velocity: bool, acceleration: bool, yaw: bool, 
 
 
 FULL = type_mask(position=True, velocity=True, acceleration=True, yaw=True, yaw_rate=False)
-"""Position, velocity, acceleration and yaw: 0x800. Position alone would be input-shaped by the autopilot, metres late."""
+"""Position, velocity, acceleration and yaw: 0x800. Position alone would be input-shaped by the autopilot, and late."""
 
 
 def setpoint_message(reference: Reference, origin_n: FloatArray, time_boot_ms: int, target_system: int) -> Any | None:

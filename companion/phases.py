@@ -2,9 +2,10 @@
 
 Theory of operation
 -------------------
-A flight is in exactly one phase. Each tick `Companion.step` looks at the telemetry, the plans and the operator and names
-at most one event; `TRANSITIONS[phase, event]` is the next phase, and a pair that is not in the table changes nothing.
-What is *done* in a phase (which command is repeated, which reference is flown) is in `core.py`; this file does not know.
+A flight is in exactly one phase. Each tick `Companion.step` looks at the telemetry, the plans and the operator and
+names at most one event; `TRANSITIONS[phase, event]` is the next phase, and a pair that is not in the table changes
+nothing. What is *done* in a phase (which command is repeated, which reference is flown) is in `core.py`; this file does
+not know.
 
     CONNECTING --vehicle heard--> PREPARING --ready--> PLANNING --plans ready--> ENGAGING --mode confirmed--> ARMING
     ARMING --armed--> FLYING --steps done--> LANDING --disarmed--> DONE

@@ -1,6 +1,6 @@
 """A straight move from rest to rest: the takeoff, and nothing that needs a plan.
 
-    s(tau) = 10 tau^3 - 15 tau^4 + 6 tau^5,  tau = t/T      (the quintic with zero velocity and acceleration at both ends)
+    s(tau) = 10 tau^3 - 15 tau^4 + 6 tau^5,  tau = t/T    (the quintic with no velocity or acceleration at its ends)
 
 Its peaks are max |s'| = 15/8, max |s''| = 10/sqrt(3), max |s'''| = 60 (at the ends), each over the matching power of T
 (differentiate and set to zero), so the shortest T under the limits is a maximum of three.

@@ -1,8 +1,8 @@
 """What crosses the seam of `Companion.step`: its inputs and outputs.
 
 In:  `Datagram | PlanReady | OperatorCommand`.  Out: `Datagram | PlanWanted | Reference | Note`.
-Slow work is an output and an input: `PlanWanted` leaves, a driver plans wherever it likes, `PlanReady` comes back and is
-recorded, so that a re-run feeds the recorded plan and never plans again.
+Slow work is an output and an input: `PlanWanted` leaves, a driver plans wherever it likes, `PlanReady` comes back and
+is recorded, so that a re-run feeds the recorded plan and never plans again.
 """
 
 from dataclasses import dataclass

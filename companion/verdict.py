@@ -1,12 +1,11 @@
 """How the flight went: measured from what crossed the seam, judged against the mission's `expect`.
 
-`FlightMeter` is a tap: it looks at every tick and keeps references, the vehicle's own position and, where the vehicle is
-a simulator that tells it, the truth (HIL_STATE_QUATERNION). `Verdict` is the table at the end.
+`FlightMeter` is a tap: it looks at every tick and keeps references, the vehicle's own position and, where the vehicle
+is a simulator that tells it, the truth (HIL_STATE_QUATERNION). `Verdict` is the table at the end.
 
 Tracking error is |position - reference| at the time of each position sample, the reference interpolated between ticks.
-It is taken in the mission frame: the estimate less the local origin that the companion fixed on the ground, and the truth
-relative to where it stood at that moment. So an estimator that is off by a constant when the flight begins is off in the
-truth error too, as it should be.
+It is taken in the mission frame: the estimate less the local origin that the companion fixed on the ground, and the
+truth relative to where it stood at that moment. So what the estimator drifts from then on counts against the flight.
 """
 
 from dataclasses import dataclass, field
@@ -40,7 +39,7 @@ class ErrorStatistics:
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """What the plots and the verdict are made from; all in the mission frame, time in seconds from the first reference."""
+    """What plots and verdict are made from; in the mission frame, time in seconds from the first reference."""
 
     reference_s: FloatArray  # (n,)
     reference_m: FloatArray  # (n, 3)
@@ -230,7 +229,7 @@ def least_clearance(mission: Mission, position_m: FloatArray) -> float | None:
     world = mission.planner_world()
     if not world.obstacles:
         return None
-    return float(np.min(world.signed_distance(position_m))) - mission.vehicle.radius
+    return float(np.min(world.distance(position_m))) - mission.vehicle.radius
 
 
 def _statistics(track: Track | None) -> ErrorStatistics | None:

@@ -49,7 +49,9 @@ def fly(
     system_id: Annotated[
         int | None, typer.Option(help="Obey only this vehicle (default: the first heard).", min=1, max=255)
     ] = None,
-    wait: Annotated[float, typer.Option(help="How long to wait for the vehicle's first HEARTBEAT [s].", min=0.1)] = 60.0,
+    wait: Annotated[
+        float, typer.Option(help="How long to wait for the vehicle's first HEARTBEAT [s].", min=0.1)
+    ] = 60.0,
     json: Json = False,
 ) -> None:
     """Fly a mission on a vehicle behind a MAVLink/UDP endpoint."""

@@ -3,7 +3,8 @@
 import json
 import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
@@ -22,6 +23,17 @@ STYLES = {Level.ERROR: "bold red", Level.WARNING: "yellow", Level.INFO: "dim"}
 def console() -> Console:
     """Progress and notes go to stderr; stdout is for results."""
     return Console(stderr=True, highlight=False)
+
+
+@contextmanager
+def working(out: Console, what: str) -> Iterator[None]:
+    """A spinner on a terminal; one plain line elsewhere."""
+    if out.is_terminal:
+        with out.status(what):
+            yield
+    else:
+        out.print(what)
+        yield
 
 
 class ProgressLine:
@@ -45,7 +57,9 @@ class ProgressLine:
         for output in tick.outputs:
             if isinstance(output, Note):
                 time_s = f"{self._meter.duration_s:7.2f} s"
-                self._out.print(f"[dim]{time_s}[/dim]  [{STYLES[output.level]}]{_plain(output.text)}[/]", soft_wrap=True)
+                self._out.print(
+                    f"[dim]{time_s}[/dim]  [{STYLES[output.level]}]{_plain(output.text)}[/]", soft_wrap=True
+                )
         if self._status is not None and tick.index % self._every == 0:
             self._status.update(self.line())
 

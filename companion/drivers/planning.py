@@ -1,6 +1,7 @@
 """Answering `PlanWanted`: in line for lockstep, in a worker process beside the flight loop over UDP."""
 
 import os
+import signal
 from concurrent.futures import Future, ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import Protocol
@@ -71,15 +72,12 @@ def _enter_worker(world: World) -> None:
     global _world
     _world = world
     os.nice(5)  # the flight loop comes first where cores are few
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the flight loop, which ends this process itself
 
 
 def _answer_in_worker(wanted: PlanWanted) -> PlanReady:
     assert _world is not None
     return answer(_world, wanted)
-
-
-def _warm(wanted: PlanWanted) -> None:
-    _answer_in_worker(wanted)
 
 
 class WorkerPlanning:
@@ -94,7 +92,7 @@ class WorkerPlanning:
     def __init__(self, world: World, rehearsal: PlanWanted | None = None) -> None:
         self._pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=_enter_worker, initargs=(world,))
         self._pending: list[tuple[PlanWanted, Future[PlanReady]]] = []
-        self.warming: Future[None] | None = self._pool.submit(_warm, rehearsal) if rehearsal is not None else None
+        self.rehearsed = self._pool.submit(_answer_in_worker, rehearsal) if rehearsal is not None else None
 
     def submit(self, wanted: PlanWanted) -> None:
         self._pending.append((wanted, self._pool.submit(_answer_in_worker, wanted)))

@@ -1,8 +1,8 @@
 """Real time: the same core over UDP sockets and the monotonic clock, in one thread.
 
-Absolute deadlines: the driver receives until the next one, steps, sends, and hands the tick to the taps. A late tick is
-counted and never made up by a burst. `now_us` is microseconds since the epoch as of the start, advanced by the monotonic
-clock, so that a step of the wall clock cannot bend a flight.
+Absolute deadlines: the driver receives until the next one, steps, sends, and hands the tick to the taps. A late tick
+is counted and never made up by a burst. `now_us` is microseconds since the epoch as of the start, advanced by the
+monotonic clock, so that a step of the wall clock cannot bend a flight.
 """
 
 import time

@@ -98,5 +98,5 @@ def test_bytes_that_are_not_text_and_files_that_are_not_there_are_said_in_one_li
         parse_mission(b"\xff\xfe\x00", "x")
     with pytest.raises(MissionError, match=r"missing\.yaml: cannot be read: No such file"):
         load_mission(tmp_path / "missing.yaml")
-    with pytest.raises(MissionError, match="at most"):
+    with pytest.raises(MissionError, match="more than 4000000 bytes"):
         parse_mission(b"#" * 5_000_000, "x")

@@ -9,7 +9,9 @@ from planner import Limits
 START, END = np.array([1.0, 2.0, 0.0]), np.array([1.0, 2.0, -3.0])
 
 
-@pytest.mark.parametrize("limits", [(1, 100, 1000), (100, 2, 1000), (100, 100, 5)], ids=["speed", "acceleration", "jerk"])
+@pytest.mark.parametrize(
+    "limits", [(1, 100, 1000), (100, 2, 1000), (100, 100, 5)], ids=["speed", "acceleration", "jerk"]
+)
 def test_the_tightest_limit_is_reached_and_none_exceeded(limits):
     bounds = Limits(*map(float, limits))
     move = StraightMove.within(START, END, bounds)

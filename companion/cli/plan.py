@@ -1,0 +1,70 @@
+"""`companion plan`: every leg of a mission, planned and shown, nothing flown."""
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from companion.cli import show
+from companion.drivers.planning import answer
+from companion.itinerary import Itinerary
+from companion.mission import load_mission
+from companion.seam import PlanReady
+
+
+def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int:
+    """Plan `path`; exit code 0 when every leg has a certified trajectory."""
+    out = show.console()
+    mission = load_mission(path)
+    world = mission.planner_world()
+    requests = Itinerary(mission, seed).wanted()
+    with show.working(out, "planning (kernels are compiled the first time)"):
+        answers = [answer(world, wanted) for wanted in requests]
+    ok = all(a.certified for a in answers)
+    if as_json:
+        legs = [_leg_json(a) for a in answers]
+        show.print_json({"ok": ok, "mission": mission.name, "seed": seed, "legs": legs})
+    else:
+        _print(mission.name, answers)
+    if plot is not None and ok and answers:
+        from planner.plot import save_plot
+
+        trajectories = [a.trajectory for a in answers if a.trajectory is not None]
+        save_plot(world, trajectories, requests[0].radius, requests[0].limits, plot, title=mission.name)
+        out.print(f"plot: {plot}")
+    for leg in answers:
+        if not leg.certified:
+            out.print(f"[bold red]✗[/] leg {leg.request_id}: {leg.error}: {leg.text}", soft_wrap=True)
+    return 0 if ok else 1
+
+
+def _print(name: str, answers: list[PlanReady]) -> None:
+    table = Table(title=f"{name}: {len(answers)} leg{'s' if len(answers) != 1 else ''}")
+    for column in ("step", "length", "duration", "clear beyond the radius", "certified", "CPU", "method"):
+        table.add_column(column, justify="right")
+    for leg in answers:
+        duration = "-" if leg.trajectory is None else f"{leg.trajectory.duration:.2f} s"
+        table.add_row(
+            str(leg.request_id),
+            f"{leg.length:.2f} m",
+            duration,
+            f"{leg.clearance:.3f} m",
+            "yes" if leg.certified else f"no: {leg.error}",
+            f"{leg.cpu_ms:.1f} ms",
+            leg.method,
+        )
+    Console().print(table)
+
+
+def _leg_json(leg: PlanReady) -> dict[str, object]:
+    return {
+        "step": leg.request_id,
+        "certified": leg.certified,
+        "length_m": leg.length,
+        "duration_s": None if leg.trajectory is None else leg.trajectory.duration,
+        "clearance_m": leg.clearance,
+        "cpu_ms": leg.cpu_ms,
+        "method": leg.method,
+        "error": leg.error,
+        "text": leg.text,
+    }

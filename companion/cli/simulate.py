@@ -1,0 +1,69 @@
+"""`companion simulate`: mission in, lockstep flight, verdict out."""
+
+import tempfile
+import time
+from pathlib import Path
+
+from rich.console import Console
+
+from companion.cli import show
+from companion.cli.vehicle import LINK, build_vehicle
+from companion.core import Companion, CompanionConfig
+from companion.drivers.lockstep import fly_lockstep
+from companion.drivers.planning import InlinePlanning, answer
+from companion.drivers.recording import RecordingTap, header, total
+from companion.mission import parse_mission, read_mission_file
+from companion.verdict import FlightMeter, judge
+from fakevehicle.vehicle import Vehicle
+from logs.compare import OutputHash
+from logs.recorder import Recorder
+
+LIMIT_S = 3600.0
+"""Simulated time after which a flight that does not end is ended."""
+
+
+def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) -> int:
+    """Fly `path` in lockstep; returns the exit code."""
+    out = show.console()
+    data = read_mission_file(path)
+    mission = parse_mission(data, str(path))
+    companion = Companion(mission, CompanionConfig(seed=seed))
+    planning = InlinePlanning(mission.planner_world())
+    with show.working(out, "compiling kernels (only the first time)"):
+        build_vehicle(mission, seed).step(Vehicle.TICK_US, [])  # one step of a twin, thrown away
+        for wanted in companion.itinerary.wanted()[:1]:
+            answer(mission.planner_world(), wanted)
+    vehicle = build_vehicle(mission, seed)
+    meter = FlightMeter(companion)
+    outputs = OutputHash()
+    with tempfile.TemporaryDirectory() as scratch:
+        file = record if record is not None else Path(scratch) / "simulate.mcap"
+        with (
+            Recorder(file, threaded=False, **header(companion, data)) as recorder,
+            show.ProgressLine(companion, meter, out) as progress,
+        ):
+            taps = [meter, RecordingTap(companion, recorder), outputs, progress]
+            wall, cpu = time.perf_counter(), time.process_time()
+            end_us = fly_lockstep(companion, vehicle, LINK, planning, taps, limit_s=LIMIT_S)
+            wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+    verdict = judge(companion, meter)
+    simulated_s = end_us / 1e6
+    result = {
+        **show.verdict_json(verdict),
+        "recording": None if record is None else str(record),
+        "messages_recorded": total(recorder.counters),
+        "speedup": simulated_s / wall,
+        "cpu_ms_per_sim_s": 1e3 * cpu / simulated_s,
+        "outputs_sha256": outputs.hexdigest(),
+    }
+    if as_json:
+        show.print_json(result)
+    else:
+        rows = [
+            ("messages recorded", f"{total(recorder.counters)}"),
+            ("speed", f"{result['speedup']:.0f} x real time, {result['cpu_ms_per_sim_s']:.1f} ms CPU a second"),
+            ("outputs sha256", outputs.hexdigest()[:16] + "…"),
+            ("recording", "-" if record is None else str(record)),
+        ]
+        show.print_verdict(verdict, {**show.expectations(mission), "rows": rows}, Console())
+    return 0 if verdict.ok else 1

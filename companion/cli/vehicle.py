@@ -1,0 +1,53 @@
+"""The bundled vehicle, set up as a mission asks: in this process for lockstep, as a process of its own over UDP."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from companion.mission import Mission
+from fakevehicle.config import LinkConfig, VehicleConfig, zurich
+from fakevehicle.vehicle import Vehicle
+
+LINK = "onboard"
+"""The vehicle's name for its link to the companion."""
+
+
+def build_vehicle(mission: Mission, seed: int) -> Vehicle:
+    """The vehicle in memory, standing where the mission starts, in its wind."""
+    wind = mission.wind
+    config = VehicleConfig(
+        heading=mission.heading(),
+        wind_n=np.array([wind.north, wind.east, wind.down]),
+        seed=seed,
+        links=(LinkConfig(LINK, "onboard"),),
+    )
+    return Vehicle(config)
+
+
+def start_vehicle(mission: Mission, url: str, seed: int, log: Path) -> subprocess.Popen[bytes]:
+    """The vehicle as a process of its own, calling `url`; what it prints goes to `log`."""
+    home, wind = zurich(), mission.wind
+    place = f"{math.degrees(home.latitude):.7f},{math.degrees(home.longitude):.7f},{home.altitude:g}"
+    command = [
+        *(sys.executable, "-m", "fakevehicle", "--connect", url, "--seed", str(seed)),
+        *("--home", f"{place},{mission.vehicle.start.heading_deg:g}"),
+        *("--wind", f"{wind.north:g},{wind.east:g},{wind.down:g}"),
+    ]
+    with log.open("wb") as out:
+        # A session of its own, so that Ctrl-C lands the flight instead of killing the vehicle under it.
+        return subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
+        )
+
+
+def stop_vehicle(process: subprocess.Popen[bytes]) -> None:
+    """Ask it to end, and make it if it does not."""
+    process.terminate()
+    try:
+        process.wait(timeout=5)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

@@ -1,0 +1,146 @@
+"""The seam in recordings: our inputs and outputs as `logs.schema` records, and back.
+
+`RecordingTap` writes every tick; `recorded_ticks` reads them again for a re-run. What was received is stamped with its
+arrival, what left with the moment it had left; both carry the tick's number (docs/decisions/0008).
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from companion.core import Companion
+from companion.drivers.tick import Tick
+from companion.seam import Input, Note, OperatorCommand, Output, PlanReady, PlanWanted, Reference
+from logs import schema
+from logs.recorder import Attachment, Recorder, RecorderCounters
+from planner import Trajectory
+from wire.datagram import Datagram
+
+MISSION_ATTACHMENT = "mission.yaml"
+CONFIG_METADATA = "companion.config"
+
+
+def to_record(item: Input | Output, phase: str) -> schema.Record:
+    """One input or output, other than a datagram, as the record that keeps it."""
+    match item:
+        case PlanWanted():
+            limits = item.limits
+            return schema.PlanWanted(
+                request_id=item.request_id,
+                start=tuple(item.start_m),
+                goal=tuple(item.goal_m),
+                speed=limits.speed,
+                acceleration=limits.acceleration,
+                jerk=limits.jerk,
+                radius=item.radius,
+                seed=item.seed,
+                method=item.method,
+            )
+        case PlanReady():
+            trajectory = item.trajectory
+            return schema.PlanReady(
+                request_id=item.request_id,
+                ok=trajectory is not None,
+                error=item.error,
+                text=item.text,
+                control_points=() if trajectory is None else tuple(trajectory.control_points.ravel().tolist()),
+                knots=() if trajectory is None else tuple(trajectory.knots.tolist()),
+                length=item.length,
+                clearance=item.clearance,
+                certified=item.certified,
+                cpu_ms=item.cpu_ms,
+                method=item.method,
+            )
+        case OperatorCommand():
+            return schema.OperatorCommand(name=item.value)
+        case Note():
+            return schema.Note(level=item.level.value, phase=phase, text=item.text)
+        case Reference():
+            return schema.Reference(
+                phase=phase,
+                position=tuple(item.position_m.tolist()),
+                velocity=tuple(item.velocity_m.tolist()),
+                acceleration=tuple(item.acceleration_m.tolist()),
+                yaw=item.yaw,
+            )
+        case Datagram():
+            raise TypeError("a datagram is recorded as bytes, not as a record")
+
+
+def to_input(record: schema.Record) -> Input | None:
+    """The input that a record kept; None for a record of an output or a tick."""
+    match record:
+        case schema.PlanReady():
+            trajectory = None
+            if record.ok:
+                points = np.array(record.control_points, dtype=np.float64).reshape(-1, 3)
+                trajectory = Trajectory(points, np.array(record.knots, dtype=np.float64))
+            return PlanReady(
+                request_id=record.request_id,
+                trajectory=trajectory,
+                error=record.error,
+                text=record.text,
+                length=record.length,
+                clearance=record.clearance,
+                certified=record.certified,
+                cpu_ms=record.cpu_ms,
+                method=record.method,
+            )
+        case schema.OperatorCommand():
+            return OperatorCommand(record.name)
+    return None
+
+
+def header(companion: Companion, mission_file: bytes, **more: Mapping[str, str]) -> dict[str, Any]:
+    """What a recording begins with, as keyword arguments of `Recorder`: the mission and what else a re-run needs."""
+    config = {"config": json.dumps(asdict(companion.config), sort_keys=True)}
+    return {
+        "metadata": {CONFIG_METADATA: config, **more},
+        "attachments": [Attachment(MISSION_ATTACHMENT, "application/yaml", mission_file)],
+    }
+
+
+def total(counters: RecorderCounters) -> int:
+    """Messages in the file, of every kind."""
+    return sum(counters.rx.values()) + sum(counters.tx.values()) + counters.decoded + counters.messages
+
+
+class RecordingTap:
+    """Writes every tick to a recorder; outputs are written as they left, after the inputs that caused them."""
+
+    def __init__(self, companion: Companion, recorder: Recorder) -> None:
+        self._companion, self._recorder = companion, recorder
+
+    def __call__(self, tick: Tick) -> None:
+        recorder, phase = self._recorder, self._companion.phase.value
+        for received_us, item in tick.inputs:
+            at: dict[str, int] = {"log_time_ns": received_us * 1000, "now_us": tick.now_us, "tick": tick.index}
+            if isinstance(item, Datagram):
+                recorder.datagram(item.link, "rx", item.data, peer=item.peer, **at)
+            else:
+                self._write(item, phase, at)
+        at = {"log_time_ns": tick.sent_us * 1000, "now_us": tick.now_us, "tick": tick.index}
+        counts = schema.Tick(tick.now_us, len(tick.inputs), len(tick.outputs))
+        recorder.message(schema.TOPICS[schema.Tick], counts, **at)
+        for output in tick.outputs:
+            if isinstance(output, Datagram):
+                recorder.datagram(output.link, "tx", output.data, peer=output.peer, **at)
+            else:
+                self._write(output, phase, at)
+
+    def _write(self, item: Input | Output, phase: str, at: Mapping[str, int]) -> None:
+        record = to_record(item, phase)
+        self._recorder.message(schema.TOPICS[type(record)], record, **at)
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedTick:
+    """One tick as it was recorded: what went in, and what came out (datagrams and records)."""
+
+    index: int
+    now_us: int
+    inputs: list[Input]
+    outputs: list[Datagram | schema.Record]
