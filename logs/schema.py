@@ -1,0 +1,182 @@
+"""Our own records: what a companion core takes and gives, as protobuf messages.
+
+Every record is a frozen dataclass, and the protobuf schema is read off its fields, so there is one statement of each:
+
+    int -> int64    float -> double    bool -> bool    str -> string    tuple[float, ...] -> repeated double (packed)
+
+Doubles travel bit for bit, so a re-run is fed exactly what the core was fed. Field numbers are the order of the
+fields: add new ones at the end, with a default; never reorder, remove or retype (then raise `SCHEMA_VERSION`).
+"""
+
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
+
+from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+
+SCHEMA_VERSION = 1
+"""Written into every recording; a reader refuses a newer one."""
+
+PACKAGE = "companion"
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """One call of the core's step: its time [us], and how many inputs and outputs crossed the seam in it."""
+
+    now_us: int
+    inputs: int
+    outputs: int
+
+
+@dataclass(frozen=True, slots=True)
+class PlanWanted:
+    """Output: plan this. Vectors are (3,) in the planner's frame [m], [m/s], [m/s^2]; empty means at rest."""
+
+    request_id: int
+    start: tuple[float, ...]
+    goal: tuple[float, ...]
+    start_velocity: tuple[float, ...] = ()
+    start_acceleration: tuple[float, ...] = ()
+    speed: float = 0.0  # [m/s] limit
+    acceleration: float = 0.0  # [m/s^2] limit
+    jerk: float = 0.0  # [m/s^3] limit
+    radius: float = 0.0  # [m]
+    seed: int = 0
+    method: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PlanReady:
+    """Input: the answer to one `PlanWanted`; the trajectory's control points are flattened, x y z after one another."""
+
+    request_id: int
+    ok: bool
+    error: str = ""  # name of the planner's error type
+    text: str = ""
+    control_points: tuple[float, ...] = ()  # (3 n,) [m]
+    knots: tuple[float, ...] = ()  # (n + 4,) [s]
+    length: float = 0.0  # [m]
+    clearance: float = 0.0  # [m]
+    certified: bool = False
+    cpu_ms: float = 0.0
+    method: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class OperatorCommand:
+    """Input: what the person at the keyboard asked for."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """Output: something worth telling; `level` is a MAV_SEVERITY (3 error, 4 warning, 6 info)."""
+
+    level: int
+    phase: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """Output: where the vehicle should be now; (3,) each [m], [m/s], [m/s^2], yaw [rad]."""
+
+    phase: str
+    position: tuple[float, ...]
+    velocity: tuple[float, ...]
+    acceleration: tuple[float, ...]
+    yaw: float
+
+
+Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference
+RecordT = TypeVar("RecordT", bound=Record)
+
+RECORDS: tuple[type[Record], ...] = (Tick, PlanWanted, PlanReady, OperatorCommand, Note, Reference)
+INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand)
+OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference)
+
+TOPICS: dict[type[Record], str] = {
+    Tick: "/companion/tick",
+    PlanWanted: "/companion/plan_wanted",
+    PlanReady: "/companion/plan_ready",
+    OperatorCommand: "/companion/operator",
+    Note: "/companion/note",
+    Reference: "/companion/reference",
+}
+"""Where each record is kept, unless a driver says otherwise."""
+
+_Field = descriptor_pb2.FieldDescriptorProto
+_TYPES: dict[Any, tuple["_Field.Type.ValueType", bool]] = {
+    int: (_Field.TYPE_INT64, False),
+    float: (_Field.TYPE_DOUBLE, False),
+    bool: (_Field.TYPE_BOOL, False),
+    str: (_Field.TYPE_STRING, False),
+    tuple[float, ...]: (_Field.TYPE_DOUBLE, True),
+}
+
+
+def _descriptor_set() -> descriptor_pb2.FileDescriptorSet:
+    """The schema of every record, read off the dataclasses."""
+    file = descriptor_pb2.FileDescriptorProto(name=f"{PACKAGE}.proto", package=PACKAGE, syntax="proto3")
+    for kind in RECORDS:
+        message = file.message_type.add(name=kind.__name__)
+        for number, entry in enumerate(fields(kind), start=1):
+            type_, repeated = _TYPES[entry.type]
+            label = _Field.LABEL_REPEATED if repeated else _Field.LABEL_OPTIONAL
+            message.field.add(name=entry.name, number=number, type=type_, label=label)
+    return descriptor_pb2.FileDescriptorSet(file=[file])
+
+
+_SET = _descriptor_set()
+DESCRIPTOR_SET: bytes = _SET.SerializeToString(deterministic=True)
+"""Serialized FileDescriptorSet with all our messages; what an MCAP schema holds."""
+
+_pool = descriptor_pool.DescriptorPool()
+_pool.Add(_SET.file[0])
+_MESSAGES: dict[type[Any], type[Any]] = {
+    kind: message_factory.GetMessageClass(_pool.FindMessageTypeByName(schema))
+    for kind, schema in ((kind, f"{PACKAGE}.{kind.__name__}") for kind in RECORDS)
+}
+_NAMES: dict[type[Any], tuple[str, ...]] = {kind: tuple(entry.name for entry in fields(kind)) for kind in RECORDS}
+_REPEATED: dict[type[Any], frozenset[str]] = {
+    kind: frozenset(entry.name for entry in fields(kind) if _TYPES[entry.type][1]) for kind in RECORDS
+}
+_BY_SCHEMA: dict[str, type[Record]] = {f"{PACKAGE}.{kind.__name__}": kind for kind in RECORDS}
+
+
+def schema_name(kind: type[Any]) -> str:
+    """Full protobuf name of a record type, such as ``companion.Tick``."""
+    return f"{PACKAGE}.{kind.__name__}"
+
+
+def kind_of(name: str) -> type[Record] | None:
+    """The record type of a full protobuf name; None if it is not one of ours."""
+    return _BY_SCHEMA.get(name)
+
+
+def encode(record: Record) -> bytes:
+    """Protobuf bytes of a record; equal records give equal bytes."""
+    kind = type(record)
+    message = _MESSAGES[kind](**{name: getattr(record, name) for name in _NAMES[kind]})
+    data: bytes = message.SerializeToString(deterministic=True)
+    return data
+
+
+def decode(kind: type[RecordT], data: bytes) -> RecordT:
+    """The record in protobuf bytes; fields of later versions are ignored, absent ones are zero or empty.
+
+    Raises
+    ------
+    ValueError    The bytes are not a protobuf message of this kind.
+    """
+    message = _MESSAGES[kind]()
+    try:
+        message.ParseFromString(data)
+    except Exception as error:  # google.protobuf.message.DecodeError, whose stubs are untyped
+        raise ValueError(f"{len(data)} bytes are not a {schema_name(kind)}: {error}") from error
+    repeated = _REPEATED[kind]
+    values: dict[str, Any] = {
+        name: tuple(getattr(message, name)) if name in repeated else getattr(message, name) for name in _NAMES[kind]
+    }
+    return kind(**values)

@@ -1,0 +1,106 @@
+"""A recording as a table of ticks: what a re-run feeds to a fresh core, and what it compares with.
+
+Recorder and reader agree on one rule: `sequence` is the tick, and the order in the file is the order at the seam. So a
+tick's inputs are its rx datagrams, `PlanReady` and `OperatorCommand` in file order; its outputs are its tx datagrams,
+`PlanWanted`, `Note` and `Reference` in file order; its `Tick` record gives `now_us` and how many there must be of each.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from logs import schema
+from logs.errors import RecordingError
+from logs.reader import RecordedMessage, Recording
+from wire.datagram import Datagram
+
+Entry = Datagram | schema.Record
+"""A datagram with its link and peer, or one of our records."""
+
+
+@dataclass(slots=True)
+class RecordedTick:
+    """One row.
+
+    Attributes
+    ----------
+    index : of the tick; now_us : the time the core was given [us].
+    inputs, outputs : (log time [ns], what), in the order of the seam.
+    """
+
+    index: int
+    now_us: int
+    inputs: list[tuple[int, Entry]] = field(default_factory=list)
+    outputs: list[tuple[int, Entry]] = field(default_factory=list)
+
+
+def ticks(recording: Recording) -> Iterator[RecordedTick]:
+    """The ticks of a recording, in order.
+
+    Of a recording cut short, the last tick is left out unless everything that belongs to it is there.
+
+    Raises
+    ------
+    RecordingError    Ticks are missing, mixed up, or lack entries (the recorder dropped some): such a recording can
+        be looked at, but not run again.
+    """
+    row: RecordedTick | None = None
+    declared: schema.Tick | None = None
+    expected = 0
+    for message in recording.messages():
+        entry = entry_of(message)
+        if entry is None:
+            continue
+        if row is None or message.tick != row.index:
+            if row is not None:
+                yield _checked(recording, row, declared)
+            if message.tick != expected:
+                raise RecordingError(recording.path, f"tick {message.tick} follows where tick {expected} should be")
+            row, declared = RecordedTick(message.tick, message.publish_time_ns // 1000), None
+            expected += 1
+        if isinstance(entry, schema.Tick):
+            declared, row.now_us = entry, entry.now_us
+        elif is_input(message):
+            row.inputs.append((message.log_time_ns, entry))
+        else:
+            row.outputs.append((message.log_time_ns, entry))
+    if row is not None:
+        try:
+            last = _checked(recording, row, declared)
+        except RecordingError:
+            if recording.complete:
+                raise
+        else:
+            yield last
+
+
+def entry_of(message: RecordedMessage) -> Entry | None:
+    """The datagram or record in a message; None for a decoded copy of a packet.
+
+    Raises
+    ------
+    ValueError    A record's bytes do not fit its schema.
+    """
+    channel = message.channel
+    if channel.direction is not None:
+        return Datagram(channel.link, message.data, channel.peer)
+    kind = schema.kind_of(channel.schema)
+    return None if kind is None else schema.decode(kind, message.data)
+
+
+def is_input(message: RecordedMessage) -> bool:
+    """Whether a message went into the core rather than came out of it."""
+    channel = message.channel
+    return channel.direction == "rx" or schema.kind_of(channel.schema) in schema.INPUTS
+
+
+def _checked(recording: Recording, row: RecordedTick, declared: schema.Tick | None) -> RecordedTick:
+    """The row, if it holds all that its `Tick` record says."""
+    if declared is None:
+        raise RecordingError(recording.path, f"tick {row.index} has no {schema.schema_name(schema.Tick)} record")
+    found, said = (len(row.inputs), len(row.outputs)), (declared.inputs, declared.outputs)
+    if found != said:
+        raise RecordingError(
+            recording.path,
+            f"tick {row.index} has {found[0]} of {said[0]} inputs and {found[1]} of {said[1]} outputs: some were lost",
+        )
+    return row

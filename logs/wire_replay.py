@@ -1,0 +1,63 @@
+"""Wire replay: the vehicle's recorded traffic again, with its own spacing, for a ground station to look at.
+
+Only what the vehicle sent is ever replayed. What the companion sent to it (setpoints, commands) stays in the file.
+This is the pacing, without a socket or a clock; `logs.replay_driver` sends.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from logs.errors import RecordingError
+from logs.reader import RecordedMessage, Recording
+
+
+@dataclass(frozen=True, slots=True)
+class Due:
+    """A datagram and when to send it [s] after the start of the replay."""
+
+    due_s: float
+    data: bytes
+
+
+def vehicle_link(recording: Recording) -> str:
+    """The link toward the vehicle: the one metadata ``run`` names as ``vehicle_link``, or the only one heard.
+
+    Raises
+    ------
+    RecordingError    No link received anything, or several did and none is named.
+    """
+    named = recording.metadata.get("run", {}).get("vehicle_link")
+    links = dict.fromkeys(message.channel.link for message in recording.messages() if message.channel.direction == "rx")
+    if named in links and named is not None:
+        return named
+    if len(links) != 1:
+        found = ", ".join(links) or "none"
+        raise RecordingError(recording.path, f"which link leads to the vehicle? It is not named; links heard: {found}")
+    return next(iter(links))
+
+
+def vehicle_traffic(recording: Recording, link: str) -> Iterator[RecordedMessage]:
+    """The datagrams received on a link, in order; nothing that was sent."""
+    return recording.messages(topics=(f"/mavlink/raw/{link}/rx",))
+
+
+def paced(messages: Iterable[RecordedMessage], rate: float = 1.0) -> Iterator[Due]:
+    """Give every datagram its time: the recorded spacing, divided by `rate`; never earlier than the one before.
+
+    Raises
+    ------
+    ValueError    `rate` is not a positive number.
+    """
+    if not 0.0 < rate < float("inf"):
+        raise ValueError(f"rate is {rate}; expected a positive number")
+    return _paced(messages, rate)
+
+
+def _paced(messages: Iterable[RecordedMessage], rate: float) -> Iterator[Due]:
+    start_ns: int | None = None
+    due_s = 0.0
+    for message in messages:
+        if start_ns is None:
+            start_ns = message.log_time_ns
+        due_s = max(due_s, (message.log_time_ns - start_ns) / 1e9 / rate)
+        yield Due(due_s, message.data)
