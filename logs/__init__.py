@@ -10,7 +10,7 @@ Time: `log_time` and `publish_time` are in [ns], `now_us` in [us], both of the c
 those of the messages recorded; nothing is converted.
 """
 
-from logs.compare import Comparison, Difference, Output, compare, first_difference, outputs_sha256
+from logs.compare import Comparison, Difference, Output, OutputHash, compare, first_difference, outputs_sha256
 from logs.container import Attachment, Direction
 from logs.errors import LogsError, RecordingError, SchemaVersionError
 from logs.reader import ChannelInfo, RecordedMessage, Recording
@@ -25,6 +25,7 @@ __all__ = [
     "Entry",
     "LogsError",
     "Output",
+    "OutputHash",
     "RecordedMessage",
     "RecordedTick",
     "Recording",

@@ -104,20 +104,33 @@ def first_difference(recorded: Iterable[Output], produced: Iterable[Output]) -> 
     return None
 
 
-def outputs_sha256(outputs: Iterable[Output]) -> str:
-    """One number for all outputs of a run, in hexadecimal.
+class OutputHash:
+    """One number for all outputs of a run.
 
     SHA-256 over, for every output in order: tick (uint32), length of the channel's name (uint16), the name (UTF-8),
     length of the data (uint32), the data; integers little-endian. Order, ticks and links count; times and peers do not.
     """
-    digest = hashlib.sha256()
-    for output in outputs:
+
+    def __init__(self) -> None:
+        self._digest = hashlib.sha256()
+
+    def add(self, output: Output) -> None:
+        """Take one output more."""
         name = output.channel.encode()
-        digest.update(_TICK_AND_LENGTH.pack(output.tick & 0xFFFFFFFF, len(name)))
-        digest.update(name)
-        digest.update(_LENGTH.pack(len(output.data)))
-        digest.update(output.data)
-    return digest.hexdigest()
+        head = _TICK_AND_LENGTH.pack(output.tick & 0xFFFFFFFF, len(name))
+        self._digest.update(head + name + _LENGTH.pack(len(output.data)) + output.data)
+
+    def hexdigest(self) -> str:
+        """The hash of what was added so far, in hexadecimal."""
+        return self._digest.hexdigest()
+
+
+def outputs_sha256(outputs: Iterable[Output]) -> str:
+    """`OutputHash` of all outputs of a run, in hexadecimal."""
+    total = OutputHash()
+    for output in outputs:
+        total.add(output)
+    return total.hexdigest()
 
 
 def _paired(recorded: Iterable[Output], produced: Iterable[Output]) -> Iterator[tuple[Output | None, Output | None]]:

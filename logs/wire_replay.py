@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
+from wire.dialect import mavlink
+from wire.framing import Framer
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,20 +22,26 @@ class Due:
 
 
 def vehicle_link(recording: Recording) -> str:
-    """The link toward the vehicle: the one metadata ``run`` names as ``vehicle_link``, or the only one heard.
+    """The link toward the vehicle: the first on which an autopilot's HEARTBEAT was received.
 
     Raises
     ------
-    RecordingError    No link received anything, or several did and none is named.
+    RecordingError    No autopilot was heard on any link.
     """
-    named = recording.metadata.get("run", {}).get("vehicle_link")
-    links = dict.fromkeys(message.channel.link for message in recording.messages() if message.channel.direction == "rx")
-    if named in links and named is not None:
-        return named
-    if len(links) != 1:
-        found = ", ".join(links) or "none"
-        raise RecordingError(recording.path, f"which link leads to the vehicle? It is not named; links heard: {found}")
-    return next(iter(links))
+    framer, decoder = Framer(), mavlink.MAVLink(None)
+    heard: dict[str, None] = {}
+    for message in recording.messages():
+        if message.channel.direction != "rx":
+            continue
+        heard[message.channel.link] = None
+        for packet in framer.packets(message.data):
+            if packet.message_id != mavlink.MAVLINK_MSG_ID_HEARTBEAT:
+                continue
+            heartbeat = decoder.decode(bytearray(packet.raw))
+            if packet.component_id == 1 and heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID:
+                return message.channel.link
+    links = ", ".join(heard) or "nothing received at all"
+    raise RecordingError(recording.path, f"no autopilot was heard on any link (links: {links})")
 
 
 def vehicle_traffic(recording: Recording, link: str) -> Iterator[RecordedMessage]:
