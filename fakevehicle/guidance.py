@@ -1,0 +1,139 @@
+"""Where each mode wants to fly: legs and setpoints, in the estimator's local NED frame.
+
+A `Leg` is a straight line flown from rest to rest with a trapezoidal speed profile, in closed form: at time tau after
+its start, with distance d, acceleration a and speed v = min(v_max, sqrt(a d)),
+
+    s = a tau^2 / 2                        while speeding up,      t1 = v/a
+    s = v tau - v^2 / (2a)                 at constant speed,      until t2 = d/v
+    s = d - a (t2 + t1 - tau)^2 / 2        while slowing down,     until t2 + t1
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fakevehicle.vocabulary import FloatArray, Setpoint
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A straight line from rest to rest.
+
+    Attributes
+    ----------
+    start_us : when it begins [us].
+    start_n, end_n : (3,) local NED [m].
+    speed : highest speed [m/s], > 0.
+    acceleration : [m/s^2], > 0.
+    """
+
+    start_us: int
+    start_n: FloatArray
+    end_n: FloatArray
+    speed: float
+    acceleration: float
+
+    @property
+    def length(self) -> float:
+        """Distance between the ends [m]."""
+        return math.dist(self.start_n, self.end_n)
+
+    @property
+    def duration_s(self) -> float:
+        """Time from rest to rest [s]."""
+        length = self.length
+        if length == 0.0:
+            return 0.0
+        top = min(self.speed, math.sqrt(self.acceleration * length))
+        return length / top + top / self.acceleration
+
+    def setpoint(self, now_us: int, yaw: float) -> Setpoint:
+        """Position, velocity and acceleration at `now_us`, at the nearer end outside the leg's time."""
+        length, a = self.length, self.acceleration
+        tau = (now_us - self.start_us) * 1e-6
+        if length == 0.0 or tau >= self.duration_s:
+            return still(self.end_n, yaw)
+        tau = max(tau, 0.0)
+        top = min(self.speed, math.sqrt(a * length))
+        t1, t2 = top / a, length / top
+        if tau < t1:
+            s, ds, dds = 0.5 * a * tau * tau, a * tau, a
+        elif tau < t2:
+            s, ds, dds = top * tau - 0.5 * top * t1, top, 0.0
+        else:
+            rest = t1 + t2 - tau
+            s, ds, dds = length - 0.5 * a * rest * rest, a * rest, -a
+        direction = (self.end_n - self.start_n) / length
+        return Setpoint(
+            position_n=self.start_n + s * direction, velocity_n=ds * direction, acceleration_n=dds * direction, yaw=yaw
+        )
+
+
+def still(position_n: FloatArray, yaw: float) -> Setpoint:
+    """Stay at a point.
+
+    Parameters
+    ----------
+    position_n : (3,) local NED [m].
+    yaw : [rad].
+    """
+    return Setpoint(position_n=position_n, velocity_n=np.zeros(3), acceleration_n=np.zeros(3), yaw=yaw)
+
+
+def stopping_point(position_n: FloatArray, velocity_n: FloatArray, acceleration: float) -> FloatArray:
+    """Where one comes to rest, slowing down at `acceleration` [m/s^2]: p + v |v| / (2 a), (3,) [m]."""
+    return position_n + velocity_n * (math.sqrt(float(velocity_n @ velocity_n)) / (2.0 * acceleration))
+
+
+def descent(position_n: FloatArray, speed: float, yaw: float) -> Setpoint:
+    """Sink at `speed` [m/s] above a point of the ground, (3,) of which only north and east count."""
+    return Setpoint(
+        position_n=np.array([position_n[0], position_n[1], np.nan]),
+        velocity_n=np.array([0.0, 0.0, speed]),
+        acceleration_n=np.zeros(3),
+        yaw=yaw,
+    )
+
+
+def landing_speed(height: float, land_speed: float, descend_speed: float) -> float:
+    """Sink rate at a height above home [m/s]: `descend_speed` above 10 m, `land_speed` below 5 m, linear between.
+
+    PX4 does the same with MPC_LAND_ALT1 and MPC_LAND_ALT2.
+    """
+    share = min(max((height - 5.0) / 5.0, 0.0), 1.0)
+    return land_speed + share * max(descend_speed - land_speed, 0.0)
+
+
+def return_height(height: float, distance: float, highest: float) -> float:
+    """Height above home to fly back at [m]: within a cone of 45 degrees, never lower than now, at most `highest`."""
+    return max(height, min(highest, distance))
+
+
+def yaw_of(q_nb: FloatArray) -> float:
+    """Heading of the body's x axis [rad] in -pi..pi, from a wxyz quaternion."""
+    w, x, y, z = q_nb.tolist()
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def completed(asked: Setpoint) -> Setpoint:
+    """The setpoint with something to follow on every axis: an axis nobody asked for stands still (velocity zero)."""
+    nothing = np.isnan(asked.position_n) & np.isnan(asked.velocity_n) & np.isnan(asked.acceleration_n)
+    if not nothing.any():
+        return asked
+    velocity_n = np.where(nothing, 0.0, asked.velocity_n)
+    return Setpoint(asked.position_n, velocity_n, asked.acceleration_n, asked.yaw, asked.yaw_rate)
+
+
+def asks_to_climb(asked: Setpoint, height_n: float) -> bool:
+    """Whether a setpoint wants a vehicle that stands at down coordinate `height_n` [m] to leave the ground."""
+    z, vz, az = float(asked.position_n[2]), float(asked.velocity_n[2]), float(asked.acceleration_n[2])
+    if not math.isnan(z):
+        return z < height_n - LIFT_OFF_MARGIN
+    if not math.isnan(vz):
+        return vz < -0.05
+    return az < -0.05
+
+
+LIFT_OFF_MARGIN = 0.1
+"""A position setpoint this far above a standing vehicle [m] means: take off. Less may be the estimate's own noise."""

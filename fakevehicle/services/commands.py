@@ -1,0 +1,255 @@
+"""COMMAND_LONG and COMMAND_INT: what each command does, and the COMMAND_ACK that always follows.
+
+Both messages become one `Command`; the table `_HANDLERS` says who carries it out. A handler returns a `Verdict`; every
+refusal gives a reason, which goes out as a STATUSTEXT beside the ACK. NaN in a parameter counts as not given.
+
+The refusals' result codes are PX4's: TEMPORARILY_REJECTED when the vehicle's condition forbids it, DENIED when the
+parameters do, UNSUPPORTED for a command it does not have, FAILED where PX4 fails (a stream it does not know).
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fakevehicle.codec import Message
+from fakevehicle.modes import Event, event_for_custom_mode
+from fakevehicle.places import Places
+from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.streams import Streams
+from fakevehicle.supervisor import Supervisor
+from fakevehicle.vocabulary import Geodetic
+from wire.dialect import mavlink
+
+FORCE = 21196
+"""COMPONENT_ARM_DISARM's param2 that means: whatever the state."""
+INT_UNSET = 2**31 - 1
+RADIANS_PER_E7 = math.radians(1e-7)
+_GLOBAL = (mavlink.MAV_FRAME_GLOBAL, mavlink.MAV_FRAME_GLOBAL_INT)
+_RELATIVE = (mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT, mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command in SI-neutral form.
+
+    Attributes
+    ----------
+    command : MAV_CMD.
+    params : the first four, and the seventh at index 4: what both messages have alike. NaN: not given.
+    latitude_deg, longitude_deg : parameters 5 and 6 as a place, [deg]; NaN: not given.
+    frame : MAV_FRAME; COMMAND_LONG has none and means GLOBAL.
+    """
+
+    command: int
+    params: tuple[float, float, float, float, float]
+    latitude_deg: float
+    longitude_deg: float
+    frame: int
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What became of a command: MAV_RESULT, and the reason where it was refused."""
+
+    result: int
+    reason: str = ""
+
+
+ACCEPTED = Verdict(mavlink.MAV_RESULT_ACCEPTED)
+
+
+def denied(reason: str) -> Verdict:
+    """The parameters forbid it."""
+    return Verdict(mavlink.MAV_RESULT_DENIED, reason)
+
+
+def judged(refusal: str | None) -> Verdict:
+    """What the supervisor said."""
+    return ACCEPTED if refusal is None else Verdict(mavlink.MAV_RESULT_TEMPORARILY_REJECTED, refusal)
+
+
+class Commands:
+    """Carries commands out and acknowledges them."""
+
+    def __init__(self, supervisor: Supervisor, outbox: Outbox, streams: Streams, places: Places) -> None:
+        self._supervisor = supervisor
+        self._outbox = outbox
+        self._streams = streams
+        self._places = places
+        self.rejected = 0
+
+    def command_long(self, sender: Sender, message: Message, now_us: int) -> None:
+        """COMMAND_LONG: seven floats; 5 and 6 are degrees where they are a place."""
+        m = message
+        params = (m.param1, m.param2, m.param3, m.param4, m.param7)
+        self._carry_out(sender, Command(m.command, params, m.param5, m.param6, mavlink.MAV_FRAME_GLOBAL), now_us)
+
+    def command_int(self, sender: Sender, message: Message, now_us: int) -> None:
+        """COMMAND_INT: x and y are degrees times 1e7 where they are a place."""
+        m = message
+        latitude = math.nan if m.x == INT_UNSET else m.x * 1e-7
+        longitude = math.nan if m.y == INT_UNSET else m.y * 1e-7
+        params = (m.param1, m.param2, m.param3, m.param4, m.z)
+        self._carry_out(sender, Command(m.command, params, latitude, longitude, m.frame), now_us)
+
+    def set_mode(self, sender: Sender, message: Message, now_us: int) -> None:
+        """The old SET_MODE message; it is acknowledged as its command would be."""
+        main, sub = message.custom_mode >> 16 & 0xFF, message.custom_mode >> 24 & 0xFF
+        params = (float(message.base_mode), float(main), float(sub), math.nan, math.nan)
+        command = Command(mavlink.MAV_CMD_DO_SET_MODE, params, math.nan, math.nan, mavlink.MAV_FRAME_GLOBAL)
+        self._carry_out(sender, command, now_us)
+
+    def _carry_out(self, sender: Sender, command: Command, now_us: int) -> None:
+        handler = _HANDLERS.get(command.command)
+        if handler is None:
+            verdict = Verdict(mavlink.MAV_RESULT_UNSUPPORTED, "this vehicle does not have it")
+        else:
+            verdict = handler(self, sender, command, now_us)
+        self._outbox.answer(
+            sender,
+            mavlink.MAVLink_command_ack_message(
+                command.command, verdict.result, 0, 0, sender.system_id, sender.component_id
+            ),
+        )
+        if verdict.reason:
+            self.rejected += 1
+            self._outbox.text(mavlink.MAV_SEVERITY_CRITICAL, f"{_title(command.command)} denied: {verdict.reason}")
+
+    # The commands, in the order of their numbers
+
+    def _return(self, _sender: Sender, _command: Command, now_us: int) -> Verdict:
+        return judged(self._supervisor.ask(Event.ASK_RTL, now_us))
+
+    def _land(self, _sender: Sender, _command: Command, now_us: int) -> Verdict:
+        """Here and now, as PX4: a place in the command is not flown to."""
+        return judged(self._supervisor.ask(Event.ASK_LAND, now_us))
+
+    def _takeoff(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        """To parameter 7, metres above mean sea level as in PX4; NaN or 0: MIS_TAKEOFF_ALT above the ground."""
+        altitude = command.params[4]
+        if math.isnan(altitude) or altitude == 0.0:
+            return judged(self._supervisor.ask_takeoff(now_us, None))
+        origin = self._places.origin
+        if origin is None:
+            return judged("position not known yet")
+        if not math.isfinite(altitude):
+            return denied(f"altitude {altitude}")
+        if command.frame in _RELATIVE:
+            home = self._supervisor.home
+            return judged(self._supervisor.ask_takeoff(now_us, (home.position_n[2] if home else 0.0) - altitude))
+        return judged(self._supervisor.ask_takeoff(now_us, origin.altitude - altitude))
+
+    def _set_mode(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        base, main, sub = (_whole(p) for p in command.params[:3])
+        if base is None or not base & mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED:
+            return denied("only PX4's custom modes are understood (param1 = 1)")
+        event = event_for_custom_mode(-1 if main is None else main, 0 if sub is None else sub)
+        if event is None:
+            return denied(f"this vehicle has no mode {main}/{sub}")
+        return judged(self._supervisor.ask(event, now_us))
+
+    def _reposition(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        """Fly to a place and hold. Parameter 4 is the yaw [rad]; NaN anywhere keeps what is."""
+        if command.frame not in _GLOBAL + _RELATIVE:
+            return denied(f"frame {command.frame}, expected a global one")
+        home, estimate_n = self._supervisor.home, self._supervisor.position_n
+        origin = self._places.origin
+        if origin is None or home is None or estimate_n is None:
+            return judged("position not known yet")
+        target_n = estimate_n.copy()
+        if not (math.isnan(command.latitude_deg) or math.isnan(command.longitude_deg)):
+            if not (abs(command.latitude_deg) <= 90.0 and abs(command.longitude_deg) <= 180.0):
+                return denied(f"latitude {command.latitude_deg}, longitude {command.longitude_deg}: not on the globe")
+            place = Geodetic(np.radians(command.latitude_deg), np.radians(command.longitude_deg), origin.altitude)
+            local_n = self._places.local(place)
+            if local_n is None:
+                return judged("position not known yet")
+            target_n[:2] = local_n[:2]
+        altitude = command.params[4]
+        if math.isfinite(altitude):
+            relative = command.frame in _RELATIVE
+            target_n[2] = home.position_n[2] - altitude if relative else origin.altitude - altitude
+        distance = math.dist(target_n, estimate_n)
+        if distance > MAX_GOTO:
+            return denied(f"{distance / 1000:.1f} km away, expected at most {MAX_GOTO / 1000:g} km")
+        yaw = command.params[3]
+        return judged(self._supervisor.ask_goto(now_us, target_n, yaw if math.isfinite(yaw) else math.nan))
+
+    def _arm_disarm(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        wanted, force = command.params[0], command.params[1]
+        if wanted not in (0.0, 1.0):
+            return denied(f"param1 is {wanted:g}, expected 0 or 1")
+        if wanted == 1.0:  # force does not bypass the checks of arming, in PX4 from outside either
+            return judged(self._supervisor.ask(Event.ASK_ARM, now_us))
+        event = Event.ASK_KILL if force == FORCE else Event.ASK_DISARM
+        return judged(self._supervisor.ask(event, now_us))
+
+    def _get_interval(self, sender: Sender, command: Command, _now_us: int) -> Verdict:
+        """Answered by MESSAGE_INTERVAL: 0 for a message we do not have, -1 for one that is switched off."""
+        number = _whole(command.params[0])
+        interval = 0 if number is None else self._streams.interval_us(sender.link, number)
+        answered = 0 if number is None or not 0 <= number <= 0xFFFF else number
+        self._outbox.answer(sender, mavlink.MAVLink_message_interval_message(answered, interval))
+        return ACCEPTED
+
+    def _set_interval(self, sender: Sender, command: Command, now_us: int) -> Verdict:
+        number, interval = _whole(command.params[0]), command.params[1]
+        if number is None or not math.isfinite(interval):
+            return denied("a message number and an interval are needed")
+        if not self._streams.set_interval(sender.link, number, round(interval), now_us):
+            return Verdict(mavlink.MAV_RESULT_FAILED, f"this vehicle has no message {number}")
+        return ACCEPTED
+
+    def _request_message(self, sender: Sender, command: Command, now_us: int) -> Verdict:
+        """The message goes out before its ACK, as PX4 does it."""
+        number = _whole(command.params[0])
+        message = None if number is None else self._streams.build(number)
+        if message is None:
+            known = number is not None and self._streams.knows(number)
+            return denied(f"message {number} has no content yet" if known else f"this vehicle has no message {number}")
+        self._outbox.answer(sender, message)
+        return ACCEPTED
+
+    def _request_capabilities(self, sender: Sender, _command: Command, now_us: int) -> Verdict:
+        self._outbox.answer(sender, self._streams.build(mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION))
+        return ACCEPTED
+
+
+MAX_GOTO = 10_000.0
+"""Farthest place a DO_REPOSITION may name [m]; the local frame is flat."""
+
+_HANDLERS: dict[int, Callable[[Commands, Sender, Command, int], Verdict]] = {
+    mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: Commands._return,
+    mavlink.MAV_CMD_NAV_LAND: Commands._land,
+    mavlink.MAV_CMD_NAV_TAKEOFF: Commands._takeoff,
+    mavlink.MAV_CMD_DO_SET_MODE: Commands._set_mode,
+    mavlink.MAV_CMD_DO_REPOSITION: Commands._reposition,
+    mavlink.MAV_CMD_COMPONENT_ARM_DISARM: Commands._arm_disarm,
+    mavlink.MAV_CMD_GET_MESSAGE_INTERVAL: Commands._get_interval,
+    mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: Commands._set_interval,
+    mavlink.MAV_CMD_REQUEST_MESSAGE: Commands._request_message,
+    mavlink.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: Commands._request_capabilities,
+}
+
+_TITLES = {
+    mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: "Return",
+    mavlink.MAV_CMD_NAV_LAND: "Landing",
+    mavlink.MAV_CMD_NAV_TAKEOFF: "Takeoff",
+    mavlink.MAV_CMD_DO_SET_MODE: "Mode change",
+    mavlink.MAV_CMD_DO_REPOSITION: "Goto",
+    mavlink.MAV_CMD_COMPONENT_ARM_DISARM: "Arming",
+    mavlink.MAV_CMD_GET_MESSAGE_INTERVAL: "Message interval",
+    mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: "Message interval",
+    mavlink.MAV_CMD_REQUEST_MESSAGE: "Message request",
+}
+
+
+def _title(command: int) -> str:
+    return _TITLES.get(command, f"Command {command}")
+
+
+def _whole(value: float) -> int | None:
+    """A parameter as a whole number; None when it is not finite."""
+    return round(value) if math.isfinite(value) else None

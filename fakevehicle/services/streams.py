@@ -1,0 +1,152 @@
+"""Telemetry streams: which message goes out on which link how often, and MESSAGE_INTERVAL's two commands.
+
+Every link has its own table, started from its profile. A stream's due time advances by its interval, so that rates hold
+on average although a tick is 4 ms; a stream that fell behind skips what it missed. First due times are spread out, so
+that the streams of one rate do not all fall into one tick.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from fakevehicle.codec import Message
+from fakevehicle.config import LinkConfig, Profile
+from fakevehicle.services.outbox import Outbox
+from wire.dialect import mavlink
+
+SHORTEST_US = 4_000
+"""One tick: no stream can be faster."""
+LONGEST_US = 3_600_000_000
+
+_m = mavlink
+RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
+    "gcs": {
+        _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
+        _m.MAVLINK_MSG_ID_ATTITUDE: 15,
+        _m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: 10,
+        _m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 1,
+        _m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5,
+        _m.MAVLINK_MSG_ID_SYS_STATUS: 1,
+        _m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 1,
+        _m.MAVLINK_MSG_ID_BATTERY_STATUS: 0.5,
+        _m.MAVLINK_MSG_ID_HOME_POSITION: 0.5,
+        _m.MAVLINK_MSG_ID_VFR_HUD: 4,
+        _m.MAVLINK_MSG_ID_ALTITUDE: 1,
+        _m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: 1.5,
+        _m.MAVLINK_MSG_ID_ATTITUDE_TARGET: 2,
+        _m.MAVLINK_MSG_ID_GPS_RAW_INT: 5,
+        _m.MAVLINK_MSG_ID_SYSTEM_TIME: 1,
+        _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
+        _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 1,
+        _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
+    },
+    "onboard": {
+        _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
+        _m.MAVLINK_MSG_ID_ATTITUDE: 100,
+        _m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: 50,
+        _m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 50,  # 30 on hardware; PX4's simulations raise it
+        _m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 50,
+        _m.MAVLINK_MSG_ID_ODOMETRY: 30,
+        _m.MAVLINK_MSG_ID_HIGHRES_IMU: 50,
+        _m.MAVLINK_MSG_ID_SYS_STATUS: 5,
+        _m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 5,
+        _m.MAVLINK_MSG_ID_BATTERY_STATUS: 0.5,
+        _m.MAVLINK_MSG_ID_HOME_POSITION: 0.5,
+        _m.MAVLINK_MSG_ID_VFR_HUD: 10,
+        _m.MAVLINK_MSG_ID_ALTITUDE: 10,
+        _m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: 10,
+        _m.MAVLINK_MSG_ID_ATTITUDE_TARGET: 10,
+        _m.MAVLINK_MSG_ID_GPS_RAW_INT: 5,
+        _m.MAVLINK_MSG_ID_SYSTEM_TIME: 1,
+        _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
+        _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 5,
+        _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
+        _m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: 50,  # the simulator's truth, for judging a flight; no loop sees it
+    },
+}
+
+
+@dataclass(slots=True)
+class _Stream:
+    message_id: int
+    interval_us: int
+    due_us: int
+
+
+class Streams:
+    """The schedule of all links.
+
+    Parameters
+    ----------
+    outbox : where messages go.
+    links : names and profiles.
+    builders : by message id; a builder gives None while it has nothing to say.
+    """
+
+    def __init__(
+        self, outbox: Outbox, links: Sequence[LinkConfig], builders: Mapping[int, Callable[[], Message | None]]
+    ) -> None:
+        self._outbox = outbox
+        self._builders = builders
+        self._profile = {link.name: link.profile for link in links}
+        self._tables: dict[str, dict[int, _Stream]] = {}
+        self._next_us: dict[str, int] = {}
+        for link in links:
+            table: dict[int, _Stream] = {}
+            for place, (message_id, rate) in enumerate(RATES_HZ[link.profile].items()):
+                interval = round(1e6 / rate)
+                table[message_id] = _Stream(message_id, interval, place * SHORTEST_US % interval)
+            self._tables[link.name] = table
+            self._next_us[link.name] = 0
+
+    def knows(self, message_id: int) -> bool:
+        """Whether the vehicle has this message at all."""
+        return message_id in self._builders
+
+    def build(self, message_id: int) -> Message | None:
+        """One message now; None when there is no such message, or nothing to say in it yet."""
+        builder = self._builders.get(message_id)
+        return None if builder is None else builder()
+
+    def interval_us(self, link: str, message_id: int) -> int:
+        """Interval on one link [us]; -1 switched off, 0 not a message of this vehicle."""
+        if message_id not in self._builders:
+            return 0
+        stream = self._tables[link].get(message_id)
+        return -1 if stream is None else stream.interval_us
+
+    def set_interval(self, link: str, message_id: int, interval_us: int, now_us: int) -> bool:
+        """Set one link's interval [us]: below 0 off, 0 the profile's own. False: the vehicle has no such message.
+
+        HEARTBEAT cannot be switched off.
+        """
+        if message_id not in self._builders:
+            return False
+        table = self._tables[link]
+        if interval_us == 0 or (interval_us < 0 and message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT):
+            rate = RATES_HZ[self._profile[link]].get(message_id, 0.0)
+            interval_us = round(1e6 / rate) if rate else -1
+        if interval_us < 0:
+            table.pop(message_id, None)
+            return True
+        interval_us = min(max(interval_us, SHORTEST_US), LONGEST_US)
+        table[message_id] = _Stream(message_id, interval_us, now_us)
+        self._next_us[link] = now_us
+        return True
+
+    def step(self, now_us: int) -> None:
+        """Send what is due."""
+        for link, table in self._tables.items():
+            if now_us < self._next_us[link]:
+                continue
+            next_us = now_us + LONGEST_US
+            for stream in table.values():
+                if stream.due_us <= now_us:
+                    message = self._builders[stream.message_id]()
+                    if message is not None:
+                        self._outbox.broadcast(link, message)
+                    stream.due_us += stream.interval_us
+                    if stream.due_us <= now_us:
+                        stream.due_us = now_us + stream.interval_us
+                if stream.due_us < next_us:
+                    next_us = stream.due_us
+            self._next_us[link] = next_us

@@ -1,0 +1,446 @@
+"""The content of every message the vehicle sends by itself: one method a message, from the estimate or the sensor.
+
+Only HIL_STATE_QUATERNION shows the simulator's truth. A builder gives None while it has nothing true to say: no
+attitude before the alignment, no position before the fix. Numbers that MAVLink packs into small integers are clipped
+to what fits. What this vehicle does not have (a wind estimate, a rangefinder) it does not send.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from fakevehicle.battery import CELLS, Battery
+from fakevehicle.codec import Message
+from fakevehicle.config import VehicleConfig
+from fakevehicle.flight import FlightStack
+from fakevehicle.modes import Mode
+from fakevehicle.places import Places
+from fakevehicle.supervisor import Supervisor
+from fakevehicle.vocabulary import FloatArray
+from wire.dialect import mavlink
+
+G = 9.80665
+NAN = math.nan
+_UNKNOWN16 = 0xFFFF
+VERSION = 0 << 24 | 1 << 16 | 0 << 8 | mavlink.FIRMWARE_VERSION_TYPE_DEV
+CAPABILITIES = (
+    mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
+    | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
+    | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
+)
+_INERTIAL = mavlink.MAV_SYS_STATUS_SENSOR_3D_GYRO | mavlink.MAV_SYS_STATUS_SENSOR_3D_ACCEL
+_SENSORS = (
+    _INERTIAL
+    | mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
+    | mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
+    | mavlink.MAV_SYS_STATUS_SENSOR_GPS
+    | mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS
+    | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER  # none is needed, which clients want to see as healthy
+    | mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
+    | mavlink.MAV_SYS_STATUS_AHRS
+    | mavlink.MAV_SYS_STATUS_PREARM_CHECK
+)
+_STANDARD_MODE = {
+    Mode.POSITION: mavlink.MAV_STANDARD_MODE_POSITION_HOLD,
+    Mode.TAKEOFF: mavlink.MAV_STANDARD_MODE_TAKEOFF,
+    Mode.LAND: mavlink.MAV_STANDARD_MODE_LAND,
+    Mode.RTL: mavlink.MAV_STANDARD_MODE_SAFE_RECOVERY,
+}
+_FLAG = mavlink
+
+
+class Telemetry:
+    """Builds messages from the vehicle's parts; `builders` is the table the streams use.
+
+    `now_us` is set by the vehicle at each tick.
+    """
+
+    def __init__(
+        self, config: VehicleConfig, stack: FlightStack, supervisor: Supervisor, battery: Battery, places: Places
+    ) -> None:
+        self._config = config
+        self._stack = stack
+        self._supervisor = supervisor
+        self._battery = battery
+        self._places = places
+        self.now_us = 0
+
+    @property
+    def builders(self) -> Mapping[int, Callable[[], Message | None]]:
+        """By message id: everything the vehicle can stream or send on request."""
+        m = mavlink
+        return {
+            m.MAVLINK_MSG_ID_HEARTBEAT: self.heartbeat,
+            m.MAVLINK_MSG_ID_CURRENT_MODE: self.current_mode,
+            m.MAVLINK_MSG_ID_SYS_STATUS: self.sys_status,
+            m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: self.extended_sys_state,
+            m.MAVLINK_MSG_ID_SYSTEM_TIME: self.system_time,
+            m.MAVLINK_MSG_ID_AUTOPILOT_VERSION: self.autopilot_version,
+            m.MAVLINK_MSG_ID_ATTITUDE: self.attitude,
+            m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: self.attitude_quaternion,
+            m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: self.local_position_ned,
+            m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: self.global_position_int,
+            m.MAVLINK_MSG_ID_ODOMETRY: self.odometry,
+            m.MAVLINK_MSG_ID_HIGHRES_IMU: self.highres_imu,
+            m.MAVLINK_MSG_ID_GPS_RAW_INT: self.gps_raw_int,
+            m.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: self.gps_global_origin,
+            m.MAVLINK_MSG_ID_HOME_POSITION: self.home_position,
+            m.MAVLINK_MSG_ID_ALTITUDE: self.altitude,
+            m.MAVLINK_MSG_ID_VFR_HUD: self.vfr_hud,
+            m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: self.position_target,
+            m.MAVLINK_MSG_ID_ATTITUDE_TARGET: self.attitude_target,
+            m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: self.servo_output_raw,
+            m.MAVLINK_MSG_ID_BATTERY_STATUS: self.battery_status,
+            m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: self.estimator_status,
+            m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: self.hil_state_quaternion,
+        }
+
+    # What the vehicle is doing
+
+    def heartbeat(self) -> Message:
+        """base_mode as PX4 sets it: automatic modes are stabilized, guided and auto."""
+        s = self._supervisor
+        base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | mavlink.MAV_MODE_FLAG_STABILIZE_ENABLED
+        if s.mode.automatic:
+            base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED | mavlink.MAV_MODE_FLAG_AUTO_ENABLED
+        elif s.mode is Mode.POSITION:
+            base |= mavlink.MAV_MODE_FLAG_MANUAL_INPUT_ENABLED
+        if s.armed:
+            base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+            status = mavlink.MAV_STATE_CRITICAL if s.failsafe else mavlink.MAV_STATE_ACTIVE
+        elif s.why_not_armable(self.now_us) is None:
+            status = mavlink.MAV_STATE_STANDBY
+        else:
+            status = mavlink.MAV_STATE_UNINIT
+        return mavlink.MAVLink_heartbeat_message(
+            mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_PX4, base, s.mode.custom_mode, status, 3
+        )
+
+    def current_mode(self) -> Message:
+        s = self._supervisor
+        standard = _STANDARD_MODE.get(s.mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD)
+        return mavlink.MAVLink_current_mode_message(standard, s.mode.custom_mode, s.intended.custom_mode)
+
+    def extended_sys_state(self) -> Message:
+        s = self._supervisor
+        if not s.airborne:
+            landed = mavlink.MAV_LANDED_STATE_ON_GROUND
+        elif s.landing:
+            landed = mavlink.MAV_LANDED_STATE_LANDING
+        elif s.mode is Mode.TAKEOFF:
+            landed = mavlink.MAV_LANDED_STATE_TAKEOFF
+        else:
+            landed = mavlink.MAV_LANDED_STATE_IN_AIR
+        return mavlink.MAVLink_extended_sys_state_message(mavlink.MAV_VTOL_STATE_UNDEFINED, landed)
+
+    def sys_status(self) -> Message:
+        """Health as the estimator has it; PREARM says whether arming would be accepted now (or has been)."""
+        e, s, b = self._stack.estimate, self._supervisor, self._battery
+        health = _INERTIAL | mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER
+        health |= mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE | mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
+        health |= mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
+        if self._stack.gps is not None:
+            health |= mavlink.MAV_SYS_STATUS_SENSOR_GPS
+        if e.attitude_valid:
+            health |= mavlink.MAV_SYS_STATUS_AHRS
+        if s.armed or s.why_not_armable(self.now_us) is None:
+            health |= mavlink.MAV_SYS_STATUS_PREARM_CHECK
+        millivolts, centiamps = round(b.voltage * 1e3), round(b.current * 1e2)
+        return mavlink.MAVLink_sys_status_message(
+            _SENSORS, _SENSORS, health, 0, millivolts, centiamps, round(b.remaining * 100), 0, 0, 0, 0, 0, 0
+        )
+
+    def system_time(self) -> Message:
+        start = self._config.start_unix_us
+        return mavlink.MAVLink_system_time_message(start + self.now_us if start else 0, self._boot_ms)
+
+    def autopilot_version(self) -> Message:
+        """Our own version, and only capabilities this vehicle has."""
+        none = [0] * 8
+        uid = self._config.system_id
+        return mavlink.MAVLink_autopilot_version_message(
+            CAPABILITIES, VERSION, VERSION, 0, 0, none, none, none, 0, 0, uid, [*uid.to_bytes(2, "little"), *[0] * 16]
+        )
+
+    # Where it is
+
+    def attitude(self) -> Message | None:
+        e = self._stack.estimate
+        if not e.attitude_valid:
+            return None
+        w, x, y, z = e.q_nb.tolist()
+        roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+        pitch = math.asin(min(1.0, max(-1.0, 2.0 * (w * y - z * x))))
+        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+        return mavlink.MAVLink_attitude_message(self._boot_ms, roll, pitch, yaw, *e.omega_b.tolist())
+
+    def attitude_quaternion(self) -> Message | None:
+        e = self._stack.estimate
+        if not e.attitude_valid:
+            return None
+        return mavlink.MAVLink_attitude_quaternion_message(
+            self._boot_ms, *e.q_nb.tolist(), *e.omega_b.tolist(), (0.0, 0.0, 0.0, 0.0)
+        )
+
+    def local_position_ned(self) -> Message | None:
+        e = self._stack.estimate
+        if not e.position_valid:
+            return None
+        return mavlink.MAVLink_local_position_ned_message(self._boot_ms, *e.position_n.tolist(), *e.velocity_n.tolist())
+
+    def global_position_int(self) -> Message | None:
+        e, s = self._stack.estimate, self._supervisor
+        if not e.position_valid:
+            return None
+        place = self._places.e7(e.position_n)
+        if place is None:
+            return None
+        ground = float(s.home.position_n[2]) if s.home is not None else 0.0
+        relative = round((ground - float(e.position_n[2])) * 1e3)
+        velocity = _centi(e.velocity_n)
+        return mavlink.MAVLink_global_position_int_message(
+            self._boot_ms, *place, relative, *velocity, _centidegrees(self._yaw())
+        )
+
+    def odometry(self) -> Message | None:
+        """Pose in local NED, velocity in body FRD, as the frames say; covariances of what the filter estimates."""
+        e = self._stack.estimate
+        if not (e.attitude_valid and e.position_valid):
+            return None
+        q = e.q_nb.tolist()
+        p, v = e.covariance.diagonal()[6:9].tolist(), e.covariance.diagonal()[3:6].tolist()
+        tilt = e.covariance.diagonal()[0:3].tolist()
+        # Upper triangles, row by row: only the diagonal is given, the first NaN of the rest says "unknown".
+        pose = _upper_triangle(p, tilt)
+        velocity = _upper_triangle(v, [NAN, NAN, NAN])
+        return mavlink.MAVLink_odometry_message(
+            self.now_us,
+            mavlink.MAV_FRAME_LOCAL_NED,
+            mavlink.MAV_FRAME_BODY_FRD,
+            *e.position_n.tolist(),
+            q,
+            *_into_body(q, e.velocity_n.tolist()),
+            *e.omega_b.tolist(),
+            pose,
+            velocity,
+            0,
+            mavlink.MAV_ESTIMATOR_TYPE_AUTOPILOT,
+            100,
+        )
+
+    def home_position(self) -> Message | None:
+        home = self._supervisor.home
+        if home is None:
+            return None
+        place = self._places.e7(home.position_n)
+        if place is None:
+            return None
+        half = 0.5 * home.yaw
+        q = (math.cos(half), 0.0, 0.0, math.sin(half))
+        return mavlink.MAVLink_home_position_message(*place, *home.position_n.tolist(), q, NAN, NAN, NAN, self.now_us)
+
+    def gps_global_origin(self) -> Message | None:
+        place = self._places.e7(np.zeros(3))
+        return None if place is None else mavlink.MAVLink_gps_global_origin_message(*place, self.now_us)
+
+    def altitude(self) -> Message | None:
+        e, s = self._stack.estimate, self._supervisor
+        if not e.altitude_valid or e.origin is None:
+            return None
+        up = -float(e.position_n[2])
+        amsl = e.origin.altitude + up
+        above_home = up + float(s.home.position_n[2]) if s.home is not None else NAN
+        return mavlink.MAVLink_altitude_message(self.now_us, amsl, amsl, up, above_home, NAN, NAN)
+
+    def vfr_hud(self) -> Message | None:
+        e = self._stack.estimate
+        if not e.velocity_valid or e.origin is None:
+            return None
+        vn, ve, vd = e.velocity_n.tolist()
+        heading = round(math.degrees(self._yaw())) % 360
+        throttle = round(100 * self._stack.control.thrust) if self._supervisor.armed else 0
+        amsl = e.origin.altitude - float(e.position_n[2])
+        return mavlink.MAVLink_vfr_hud_message(0.0, math.hypot(vn, ve), heading, throttle, amsl, -vd)
+
+    # What it senses
+
+    def highres_imu(self) -> Message:
+        imu, mag, baro = self._stack.imu, self._stack.mag, self._stack.baro
+        return mavlink.MAVLink_highres_imu_message(
+            self.now_us,
+            *imu.specific_force_b.tolist(),
+            *imu.omega_b.tolist(),
+            *mag.field_b.tolist(),
+            baro.pressure / 100.0,
+            0.0,
+            baro.altitude,
+            baro.temperature,
+            0b1_1011_1111_1111,  # everything but the differential pressure
+        )
+
+    def gps_raw_int(self) -> Message | None:
+        gps = self._stack.gps
+        if gps is None:
+            return None
+        vn, ve, _ = gps.velocity_n.tolist()
+        ground_speed = math.hypot(vn, ve)
+        course = _centidegrees(math.atan2(ve, vn)) if ground_speed > 0.1 else _UNKNOWN16
+        millimetres = round(gps.position.altitude * 1e3)
+        return mavlink.MAVLink_gps_raw_int_message(
+            gps.now_us,
+            gps.fix_type,
+            round(math.degrees(gps.position.latitude) * 1e7),
+            round(math.degrees(gps.position.longitude) * 1e7),
+            millimetres,
+            _UNKNOWN16,  # eph and epv are dilutions of precision, which the receiver does not model
+            _UNKNOWN16,
+            min(round(ground_speed * 100), _UNKNOWN16),
+            course,
+            gps.satellites,
+            0,
+            round(gps.eph * 1e3),
+            round(gps.epv * 1e3),
+            round(gps.speed_accuracy * 1e3),
+        )
+
+    def battery_status(self) -> Message:
+        b = self._battery
+        cell = round(b.voltage / CELLS * 1e3)
+        return mavlink.MAVLink_battery_status_message(
+            0,
+            mavlink.MAV_BATTERY_FUNCTION_ALL,
+            mavlink.MAV_BATTERY_TYPE_LIPO,
+            0x7FFF,
+            [cell] * CELLS + [_UNKNOWN16] * (10 - CELLS),
+            round(b.current * 100),
+            round(b.used / 3.6),
+            -1,
+            round(b.remaining * 100),
+            0,
+            mavlink.MAV_BATTERY_CHARGE_STATE_OK,
+        )
+
+    # What it tries
+
+    def position_target(self) -> Message | None:
+        """What the position loop follows, NaN where it follows nothing."""
+        if not self._supervisor.armed:
+            return None
+        s = self._stack.control.setpoint
+        return mavlink.MAVLink_position_target_local_ned_message(
+            self._boot_ms,
+            mavlink.MAV_FRAME_LOCAL_NED,
+            0,
+            *s.position_n.tolist(),
+            *s.velocity_n.tolist(),
+            *s.acceleration_n.tolist(),
+            s.yaw,
+            s.yaw_rate,
+        )
+
+    def attitude_target(self) -> Message | None:
+        if not self._supervisor.armed:
+            return None
+        c = self._stack.control
+        return mavlink.MAVLink_attitude_target_message(
+            self._boot_ms, 0, c.attitude_setpoint_q_nb.tolist(), *c.rate_setpoint_b.tolist(), c.thrust
+        )
+
+    def servo_output_raw(self) -> Message:
+        """Motor commands as pulse widths: 1000 to 2000 us, 900 while disarmed, as PX4's SIH shows them."""
+        if self._supervisor.armed:
+            pulses = [1000 + round(1000 * min(max(m, 0.0), 1.0)) for m in self._stack.control.motor.tolist()]
+        else:
+            pulses = [900] * 4
+        return mavlink.MAVLink_servo_output_raw_message(self.now_us & 0xFFFFFFFF, 0, *pulses, 0, 0, 0, 0)
+
+    def estimator_status(self) -> Message:
+        """Flags of what the filter knows, and its innovation test ratios (above 1: rejected)."""
+        e = self._stack.estimate
+        flags = 0
+        if e.attitude_valid:
+            flags |= mavlink.ESTIMATOR_ATTITUDE
+        if e.velocity_valid:
+            flags |= mavlink.ESTIMATOR_VELOCITY_HORIZ | mavlink.ESTIMATOR_VELOCITY_VERT
+        if e.position_valid:
+            flags |= mavlink.ESTIMATOR_POS_HORIZ_REL | mavlink.ESTIMATOR_POS_HORIZ_ABS
+            flags |= mavlink.ESTIMATOR_PRED_POS_HORIZ_REL | mavlink.ESTIMATOR_PRED_POS_HORIZ_ABS
+        else:
+            flags |= mavlink.ESTIMATOR_CONST_POS_MODE
+        if e.altitude_valid:
+            flags |= mavlink.ESTIMATOR_POS_VERT_ABS
+        ratio = e.test_ratio
+        if ratio.get("gps_position", 0.0) > 1.0:
+            flags |= mavlink.ESTIMATOR_GPS_GLITCH
+        north, east, down = e.covariance.diagonal()[6:9].tolist()
+        return mavlink.MAVLink_estimator_status_message(
+            self.now_us,
+            flags,
+            ratio.get("gps_velocity", NAN),
+            ratio.get("gps_position", NAN),
+            ratio.get("baro", NAN),
+            ratio.get("mag", NAN),
+            NAN,
+            NAN,
+            math.sqrt(max(north + east, 0.0)),
+            math.sqrt(max(down, 0.0)),
+        )
+
+    def hil_state_quaternion(self) -> Message:
+        """The simulator's truth. Acceleration is kinematic, turned into the body frame [mG]; no air speed is given."""
+        t = self._stack.truth
+        q = t.q_nb.tolist()
+        latitude, longitude, millimetres = self._places.truth_e7(t.position_n)
+        acceleration = [_clip16(a / G * 1e3) for a in _into_body(q, t.acceleration_n.tolist())]
+        return mavlink.MAVLink_hil_state_quaternion_message(
+            self.now_us,
+            q,
+            *t.omega_b.tolist(),
+            latitude,
+            longitude,
+            millimetres,
+            *_centi(t.velocity_n),
+            0,
+            0,
+            *acceleration,
+        )
+
+    @property
+    def _boot_ms(self) -> int:
+        return self.now_us // 1000 & 0xFFFFFFFF
+
+    def _yaw(self) -> float:
+        w, x, y, z = self._stack.estimate.q_nb.tolist()
+        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def _clip16(value: float) -> int:
+    return min(max(round(value), -32768), 32767)
+
+
+def _centi(values: FloatArray) -> list[int]:
+    return [_clip16(v * 100.0) for v in values.tolist()]
+
+
+def _centidegrees(angle: float) -> int:
+    """0..35999."""
+    return round(math.degrees(angle) * 100.0) % 36000
+
+
+def _into_body(q: list[float], v: list[float]) -> tuple[float, float, float]:
+    """R(q)^T v for a wxyz quaternion that takes b to n; plain floats are faster than arrays here."""
+    w, x, y, z = q
+    a, b, c = v
+    # v' = v + 2 u x (u x v + w v) with u = -(x, y, z): the inverse rotation
+    tx, ty, tz = z * b - y * c + w * a, x * c - z * a + w * b, y * a - x * b + w * c
+    return a + 2.0 * (z * ty - y * tz), b + 2.0 * (x * tz - z * tx), c + 2.0 * (y * tx - x * ty)
+
+
+def _upper_triangle(first: list[float], second: list[float]) -> list[float]:
+    """Row-major upper triangle of a 6x6 matrix with this diagonal and NaN elsewhere."""
+    diagonal = [*first, *second]
+    return [diagonal[row] if row == column else NAN for row in range(6) for column in range(row, 6)]

@@ -1,0 +1,290 @@
+"""The vehicle as a pure step machine: datagrams in, datagrams out, one tick of 4 ms at a time.
+
+The order of work in a tick
+---------------------------
+1. Every datagram is framed, and every packet that is addressed to us is handed to its service. Services answer into
+   the outbox at once and steer the supervisor; they see the estimate of the tick before.
+2. The supervisor notices what happened (takeoff, landing, a lost stream) and turns the mode into one setpoint.
+3. The flight stack flies that setpoint for 4 ms: physics, sensors, estimator, loops.
+4. A change of mode, arming or landed state is told at once; then come the streams that are due.
+
+`step` never raises for what a peer sent. The vehicle obeys every peer on its own links that addresses system
+`system_id` or 0 (all) and component 1 or 0, and ignores the rest; MAVLink 1 is read, MAVLink 2 is answered.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from fakevehicle import flight, supervisor
+from fakevehicle.airframe import load_airframe
+from fakevehicle.battery import Battery
+from fakevehicle.codec import AUTOPILOT_COMPONENT, Message, decode
+from fakevehicle.config import VehicleConfig
+from fakevehicle.flight import FlightStack
+from fakevehicle.params import Parameter, ParameterSet, ParameterType
+from fakevehicle.places import Places
+from fakevehicle.services import absent, timing
+from fakevehicle.services.commands import Commands
+from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.parameters import Parameters
+from fakevehicle.services.setpoints import Setpoints
+from fakevehicle.services.streams import Streams
+from fakevehicle.services.telemetry import Telemetry
+from fakevehicle.supervisor import Supervisor
+from fakevehicle.vocabulary import Truth
+from wire.datagram import Datagram
+from wire.dialect import mavlink
+from wire.framing import Framer
+
+TICK_US = 4_000
+READ_ONLY = frozenset({"MAV_SYS_ID"})
+MAX_PACKETS = 2048
+"""Most packets of one tick; what is more is dropped and counted."""
+
+PARAMETERS: tuple[Parameter, ...] = (
+    Parameter("MAV_SYS_ID", 1, 1, 255, "", "MAVLink system id", ParameterType.INT32),
+    *supervisor.PARAMETERS,
+    *flight.PARAMETERS,
+)
+
+Handler = Callable[[Sender, Message], None]
+
+
+@dataclass(frozen=True, slots=True)
+class VehicleCounters:
+    """What the vehicle met since it was made.
+
+    Attributes
+    ----------
+    packets : framed on all links.
+    bad_crc, garbage_bytes : of the framing.
+    foreign : packets not addressed to us, or of our own system id.
+    ignored : messages that need no answer and get none.
+    flooded : packets dropped since a tick brought too many.
+    rejected_commands, rejected_setpoints : refused, each with a reason.
+    sent, dropped : packets out, and packets that did not fit into a tick.
+    """
+
+    packets: int = 0
+    bad_crc: int = 0
+    garbage_bytes: int = 0
+    foreign: int = 0
+    ignored: int = 0
+    flooded: int = 0
+    rejected_commands: int = 0
+    rejected_setpoints: int = 0
+    sent: int = 0
+    dropped: int = 0
+
+
+class Vehicle:
+    """A PX4-flavoured quadrotor.
+
+    Parameters
+    ----------
+    config : its airframe, place, air, links and seed.
+    parameters : values that differ from the defaults, by name.
+
+    Raises
+    ------
+    KeyError, ValueError : `parameters` names one that does not exist, or a value out of range.
+    AirframeError : the airframe's file cannot be used.
+    """
+
+    TICK_US = TICK_US
+
+    def __init__(self, config: VehicleConfig, parameters: Mapping[str, float] | None = None) -> None:
+        self.config = config
+        overrides = {"MAV_SYS_ID": config.system_id, **(parameters or {})}
+        self.parameters = ParameterSet(_distinct(PARAMETERS), overrides)
+        self._stack = FlightStack(
+            airframe=load_airframe(config.airframe),
+            parameters=self.parameters,
+            home=config.home,
+            heading=config.heading,
+            wind_n=config.wind_n,
+            seed=config.seed,
+        )
+        self._supervisor = Supervisor(self.parameters)
+        self._battery = Battery()
+        self._places = Places(lambda: self._stack.estimate.origin, config.home)
+        self._outbox = Outbox(config.system_id, [link.name for link in config.links])
+        self._telemetry = Telemetry(config, self._stack, self._supervisor, self._battery, self._places)
+        self._streams = Streams(self._outbox, config.links, self._telemetry.builders)
+        self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places)
+        self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
+        self._parameter_service = Parameters(self.parameters, self._outbox, READ_ONLY, self._warn)
+        self._framers = {link.name: Framer() for link in config.links}
+        self._handlers = self._routes()
+        self._foreign = self._ignored = self._flooded = 0
+        self._entered = 0
+        self._told: tuple[object, ...] = ()
+        self._told_home: object = None
+        self._now_us: int | None = None
+
+    @property
+    def truth(self) -> Truth:
+        """What the physics knows; for judging, never for flying."""
+        return self._stack.truth
+
+    @property
+    def flying(self) -> Supervisor:
+        """Mode, arming and landed state, to be looked at only."""
+        return self._supervisor
+
+    def take_texts(self) -> list[str]:
+        """What it told people since the last call (the STATUSTEXTs), for a log."""
+        return self._outbox.take_said()
+
+    @property
+    def counters(self) -> VehicleCounters:
+        """A snapshot."""
+        framing = [framer.counters for framer in self._framers.values()]
+        return VehicleCounters(
+            packets=sum(c.packets for c in framing),
+            bad_crc=sum(c.bad_crc for c in framing),
+            garbage_bytes=sum(c.garbage_bytes for c in framing),
+            foreign=self._foreign,
+            ignored=self._ignored,
+            flooded=self._flooded,
+            rejected_commands=self._commands.rejected,
+            rejected_setpoints=self._setpoints.rejected,
+            sent=self._outbox.sent,
+            dropped=self._outbox.dropped,
+        )
+
+    def step(self, now_us: int, inputs: Sequence[Datagram]) -> list[Datagram]:
+        """Advance by one tick to `now_us`.
+
+        Parameters
+        ----------
+        now_us : time since boot [us]; each call is one TICK_US later than the one before.
+        inputs : what has arrived since, in order. Datagrams of links we do not have are ignored.
+
+        Returns
+        -------
+        What to send, in order. `peer` None: to every peer of that link.
+
+        Raises
+        ------
+        ValueError : `now_us` is not one tick later.
+        DivergedError : the simulation left the range where its numbers mean anything.
+        """
+        if self._now_us is not None and now_us != self._now_us + TICK_US:
+            raise ValueError(f"now_us {now_us}: expected {self._now_us + TICK_US}, one tick after the last")
+        self._now_us = now_us
+        self._telemetry.now_us = now_us
+        if inputs:
+            self._take(inputs)
+        setpoint = self._supervisor.step(now_us, self._stack.estimate, self._stack.control.thrust)
+        if self._supervisor.entered != self._entered:
+            self._entered = self._supervisor.entered
+            self._stack.reset_control()
+        self._stack.tick(now_us, setpoint, self._supervisor.armed)
+        self._battery.draw(self._stack.control.thrust, self._supervisor.armed, TICK_US * 1e-6)
+        self._tell_changes()
+        self._parameter_service.step()
+        self._streams.step(now_us)
+        return self._outbox.take()
+
+    def _take(self, inputs: Sequence[Datagram]) -> None:
+        """Frame, decode and hand out what came in."""
+        budget = MAX_PACKETS
+        ours = self.config.system_id
+        for datagram in inputs:
+            framer = self._framers.get(datagram.link)
+            if framer is None:
+                self._ignored += 1
+                continue
+            for packet in framer.packets(datagram.data):
+                if budget == 0:
+                    self._flooded += 1
+                    continue
+                budget -= 1
+                if packet.system_id == ours and packet.component_id == AUTOPILOT_COMPONENT:
+                    self._foreign += 1  # an echo of ourselves
+                    continue
+                handler = self._handlers.get(packet.message_id)
+                message = decode(packet) if handler is not None else None
+                if handler is None or message is None:
+                    self._ignored += 1
+                elif not _addressed(message, ours):
+                    self._foreign += 1
+                else:
+                    sender = Sender(datagram.link, datagram.peer, packet.system_id, packet.component_id)
+                    handler(sender, message)
+
+    def _routes(self) -> dict[int, Handler]:
+        """Which message goes to which service."""
+        m, out, commands, params = mavlink, self._outbox, self._commands, self._parameter_service
+        setpoints, warn = self._setpoints, self._warn
+        return {
+            m.MAVLINK_MSG_ID_COMMAND_LONG: lambda s, g: commands.command_long(s, g, self._now()),
+            m.MAVLINK_MSG_ID_COMMAND_INT: lambda s, g: commands.command_int(s, g, self._now()),
+            m.MAVLINK_MSG_ID_SET_MODE: lambda s, g: commands.set_mode(s, g, self._now()),
+            m.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: lambda _, g: setpoints.local_ned(g, self._now()),
+            m.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: lambda _, g: setpoints.global_int(g, self._now()),
+            m.MAVLINK_MSG_ID_SET_ATTITUDE_TARGET: lambda _, g: setpoints.attitude(g, self._now()),
+            m.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: params.request_list,
+            m.MAVLINK_MSG_ID_PARAM_REQUEST_READ: params.request_read,
+            m.MAVLINK_MSG_ID_PARAM_SET: params.set,
+            m.MAVLINK_MSG_ID_PING: lambda s, g: timing.ping(out, s, g),
+            m.MAVLINK_MSG_ID_TIMESYNC: lambda s, g: timing.timesync(out, s, g, self._now()),
+            m.MAVLINK_MSG_ID_MISSION_REQUEST_LIST: lambda s, g: absent.mission_list(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_COUNT: lambda s, g: absent.mission_count(out, s, g, warn),
+            m.MAVLINK_MSG_ID_MISSION_CLEAR_ALL: lambda s, g: absent.mission_clear(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_REQUEST: lambda s, g: absent.mission_request(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_REQUEST_INT: lambda s, g: absent.mission_request(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_SET_CURRENT: lambda s, g: absent.mission_request(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_ITEM: lambda s, g: absent.mission_item(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_ITEM_INT: lambda s, g: absent.mission_item(out, s, g),
+            m.MAVLINK_MSG_ID_LOG_REQUEST_LIST: lambda s, g: absent.log_list(out, s, g),
+            m.MAVLINK_MSG_ID_LOG_REQUEST_DATA: lambda s, g: absent.log_data(out, s, g),
+            m.MAVLINK_MSG_ID_SERIAL_CONTROL: lambda s, g: absent.serial_control(out, s, g, warn),
+            m.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: lambda s, g: absent.file_transfer(out, s, g),
+        }
+
+    def _tell_changes(self) -> None:
+        """HEARTBEAT, CURRENT_MODE and EXTENDED_SYS_STATE at every change, and what the supervisor has to say."""
+        s = self._supervisor
+        for severity, text in s.notes:
+            self._outbox.text(severity, text)
+        s.notes.clear()
+        state = (s.mode, s.intended, s.armed, s.failsafe, s.airborne, s.landing)
+        if state != self._told:
+            self._told = state
+            for message in (
+                self._telemetry.heartbeat(),
+                self._telemetry.current_mode(),
+                self._telemetry.extended_sys_state(),
+            ):
+                self._outbox.everywhere(message)
+        if s.home is not self._told_home:
+            self._told_home = s.home
+            for maybe in (self._telemetry.gps_global_origin(), self._telemetry.home_position()):
+                if maybe is not None:
+                    self._outbox.everywhere(maybe)
+
+    def _warn(self, text: str) -> None:
+        self._outbox.text(mavlink.MAV_SEVERITY_WARNING, text)
+
+    def _now(self) -> int:
+        return self._now_us or 0
+
+
+def _addressed(message: Message, system_id: int) -> bool:
+    """Whether a message is for our autopilot: addressed to it, to all, or to nobody in particular."""
+    if message.get_type() == "PING":
+        return True  # target 0, 0 marks a request; the service looks itself
+    system = getattr(message, "target_system", 0)
+    component = getattr(message, "target_component", 0)
+    return system in (0, system_id) and component in (0, AUTOPILOT_COMPONENT)
+
+
+def _distinct(parameters: Sequence[Parameter]) -> Sequence[Parameter]:
+    """The same list; two rooms that claim one name are our own mistake."""
+    names = [p.name for p in parameters]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise ValueError(f"parameters listed twice: {', '.join(twice)}")
+    return parameters
