@@ -1,0 +1,210 @@
+"""Clamped B-splines: knots, values, derivatives, hulls, length.
+
+The paper's Eq. 21 is de Boor's recursion, and Eq. 35 the curve it spans; both are printed with slips, so what is used
+is (Piegl & Tiller, The NURBS Book, 2nd ed., ch. 2 and 3):
+
+    N_{i,0}(u) = 1 on [u_i, u_{i+1}), 0 elsewhere
+    N_{i,p}(u) = (u - u_i)/(u_{i+p} - u_i) N_{i,p-1}(u) + (u_{i+p+1} - u)/(u_{i+p+1} - u_{i+1}) N_{i+1,p-1}(u)
+    C(u)       = sum_i N_{i,p}(u) P_i                                                        Eq. 35, its sum restored
+
+n control points of degree p take n + p + 1 knots: ten cubic ones take 14, [0 x4, 1/7 .. 6/7, 1 x4], where the paper
+prints 16. Neighbouring pieces share p control points, not two.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from planner.errors import KnotError
+
+FloatArray = NDArray[np.float64]
+
+DEGREE = 3
+
+
+def clamped_knots(n: int, duration: float = 1.0, degree: int = DEGREE) -> FloatArray:
+    """Knots of a clamped spline on [0, duration] with evenly spaced interior knots.
+
+    Parameters
+    ----------
+    n : int             Number of control points, at least degree + 1.
+    duration : float    End of the parameter's range [s].
+
+    Returns
+    -------
+    (n + degree + 1,)   [s].
+
+    Raises
+    ------
+    KnotError : too few control points, or a duration that is not finite and positive.
+    """
+    if n < degree + 1:
+        raise KnotError(f"degree {degree} needs at least {degree + 1} control points, found {n}")
+    if not (np.isfinite(duration) and duration > 0):
+        raise KnotError(f"duration: expected a finite number above 0, found {duration}")
+    spans = n - degree
+    inner = np.arange(spans + 1) * (duration / spans)
+    inner[-1] = duration
+    return np.concatenate([np.zeros(degree), inner, np.full(degree, duration)])
+
+
+def check_knots(knots: FloatArray, n: int, degree: int = DEGREE) -> None:
+    """Raise KnotError unless `knots` clamps a spline of n control points with simple interior knots."""
+    if knots.shape != (n + degree + 1,):
+        raise KnotError(f"{n} control points of degree {degree} take {n + degree + 1} knots, found shape {knots.shape}")
+    if n < degree + 1:
+        raise KnotError(f"degree {degree} needs at least {degree + 1} control points, found {n}")
+    if not np.isfinite(knots).all():
+        raise KnotError("knots: expected finite numbers")
+    if (knots[: degree + 1] != knots[0]).any() or (knots[-degree - 1 :] != knots[-1]).any():
+        raise KnotError(f"a clamped spline of degree {degree} repeats its first and its last knot {degree + 1} times")
+    if (np.diff(knots[degree:-degree]) <= 0).any():
+        raise KnotError("knots: expected interior knots that increase")
+
+
+def evaluate(
+    control_points: FloatArray, knots: FloatArray, t: ArrayLike, degree: int = DEGREE, derivative: int = 0
+) -> FloatArray:
+    """A spline's value or derivative by de Boor's algorithm.
+
+    Parameters
+    ----------
+    control_points : (n, d)   P_i [m].
+    knots : (n + p + 1,)      clamped [s].
+    t : scalar or (m,)        clamped to the knots' range [s]; at a knot the piece to its right counts.
+    derivative : int          order; above the degree the result is zero.
+
+    Returns
+    -------
+    (d,) or (m, d)            [m/s^derivative].
+
+    Raises
+    ------
+    KnotError : an interior knot repeats too often for this derivative.
+    """
+    times = np.asarray(t, dtype=np.float64)
+    if derivative > degree:
+        return np.zeros((*times.shape, control_points.shape[1]))
+    for _ in range(derivative):
+        control_points = derivative_control_points(control_points, knots, degree)
+        knots, degree = knots[1:-1], degree - 1
+    u = np.clip(np.atleast_1d(times), knots[degree], knots[-degree - 1])
+    k = np.clip(np.searchsorted(knots, u, side="right") - 1, degree, len(control_points) - 1)
+    d = control_points[k[:, None] + np.arange(-degree, 1)]  # (m, p + 1, d): the points this piece is made of
+    for r in range(1, degree + 1):
+        for j in range(degree, r - 1, -1):
+            left, right = knots[k - degree + j], knots[k + 1 + j - r]
+            alpha = ((u - left) / (right - left))[:, None]
+            d[:, j] = (1.0 - alpha) * d[:, j - 1] + alpha * d[:, j]
+    value: FloatArray = d[:, degree].reshape(*times.shape, -1)
+    return value
+
+
+def derivative_control_points(control_points: FloatArray, knots: FloatArray, degree: int) -> FloatArray:
+    """Control points of the first derivative of a B-spline.
+
+    The derivative of a degree-p spline has degree p - 1 and the same knots less the first and the last
+    (Piegl & Tiller, sec. 3.3):
+
+        Q_i = p (P_{i+1} - P_i) / (u_{i+p+1} - u_{i+1})
+
+    The derivative stays inside the hull of the Q_i, so a bound on every |Q_i| bounds it everywhere between samples.
+    `limits.derivative_bounds` rests on this.
+
+    Parameters
+    ----------
+    control_points : (n, d)   P_i [m].
+    knots : (n + p + 1,)      clamped, non-decreasing [s].
+    degree : int              p >= 1.
+
+    Returns
+    -------
+    (n - 1, d)                Q_i [m/s].
+
+    Raises
+    ------
+    KnotError : an interior knot repeats more than p times.
+    """
+    n = len(control_points)
+    spacing = knots[degree + 1 : degree + n] - knots[1:n]
+    if (spacing <= 0).any():
+        raise KnotError(f"an interior knot repeats more than {degree} times")
+    return degree * np.diff(control_points, axis=0) / spacing[:, None]
+
+
+def basis(knots: FloatArray, n: int, t: ArrayLike, degree: int = DEGREE, derivative: int = 0) -> FloatArray:
+    """Every basis function at every time: row j holds N_i(t_j), so that `basis @ P` is the curve.
+
+    Returns
+    -------
+    (m, n)   each row sums to 1 (to 0 for a derivative).
+    """
+    return evaluate(np.eye(n), knots, np.atleast_1d(np.asarray(t, dtype=np.float64)), degree, derivative)
+
+
+def gram_matrix(knots: FloatArray, n: int, derivative: int, degree: int = DEGREE) -> FloatArray:
+    """Q_ij = int N_i^(k) N_j^(k) du, so that the integral of |C^(k)|^2 is trace(P^T Q P) (the corrected Eq. 38).
+
+    Exact: on each piece the integrand is a polynomial that Gauss-Legendre with p + 1 - k nodes integrates.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(degree + 1 - derivative)
+    breaks = np.unique(knots)
+    half = np.diff(breaks)[:, None] / 2
+    u = (breaks[:-1, None] + half * (1 + nodes)).ravel()
+    b = basis(knots, n, u, degree, derivative)
+    q: FloatArray = (b.T * (half * weights).ravel()) @ b
+    return q
+
+
+def bezier_pieces(control_points: FloatArray, knots: FloatArray) -> FloatArray:
+    """The same cubic curve as Bezier pieces, one per span.
+
+    A Bezier point of the piece on [a, b] is the blossom f(a, a, a), f(a, a, b), f(a, b, b), f(b, b, b); each is three
+    rounds of de Boor's recursion with one argument a round (Ramshaw's multi-affine form).
+
+    Parameters
+    ----------
+    control_points : (n, 3)
+    knots : (n + 4,)          clamped, interior knots simple.
+
+    Returns
+    -------
+    (n - 3, 4, 3)
+    """
+    n = len(control_points)
+    k = np.arange(DEGREE, n)
+    a, b = knots[k], knots[k + 1]
+    pieces = np.empty((n - DEGREE, 4, control_points.shape[1]))
+    for c, arguments in enumerate(((a, a, a), (a, a, b), (a, b, b), (b, b, b))):
+        d = control_points[k[:, None] + np.arange(-DEGREE, 1)]
+        for r in range(1, DEGREE + 1):
+            for j in range(DEGREE, r - 1, -1):
+                left, right = knots[k - DEGREE + j], knots[k + 1 + j - r]
+                alpha = ((arguments[r - 1] - left) / (right - left))[:, None]
+                d[:, j] = (1.0 - alpha) * d[:, j - 1] + alpha * d[:, j]
+        pieces[:, c] = d[:, DEGREE]
+    return pieces
+
+
+def span_hulls(control_points: FloatArray, degree: int = DEGREE) -> tuple[FloatArray, FloatArray]:
+    """A ball around each span: centre (n - p, d) and radius (n - p,), in the control points' unit.
+
+    The span on [u_i, u_{i+1}] lies in the hull of its p + 1 control points; the ball around their mean that reaches the
+    farthest of them contains that hull.
+    """
+    windows = np.lib.stride_tricks.sliding_window_view(control_points, degree + 1, axis=0)  # (n - p, d, p + 1)
+    centres = windows.mean(axis=2)
+    radii = np.sqrt(((windows - centres[:, :, None]) ** 2).sum(axis=1)).max(axis=1)
+    return centres, radii
+
+
+def arc_length(control_points: FloatArray, knots: FloatArray) -> float:
+    """Length of a cubic spline [m]: the integral of |C'| (Eq. 37, its norm restored).
+
+    Gauss-Legendre with 12 nodes a span. Exact for straight pieces; elsewhere the error falls faster than any power of
+    the span, and is far below 1e-6 m for the curves planned here.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    breaks = np.unique(knots)
+    half = np.diff(breaks)[:, None] / 2
+    velocity = evaluate(control_points, knots, (breaks[:-1, None] + half * (1 + nodes)).ravel(), derivative=1)
+    return float(((half * weights).ravel() * np.sqrt((velocity**2).sum(axis=1))).sum())

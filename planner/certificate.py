@@ -1,0 +1,130 @@
+"""Proof that a whole curve keeps its distance, not only sampled points of it.
+
+The curve is cut into Bezier pieces; a piece lies in the hull of its four control points b_k (paper, Fig. 1). With c its
+middle point and d_o the signed distance to solid o, two lower bounds hold on all of the piece:
+
+    d_o >= d_o(c) - max_k |b_k - c|              a signed distance is 1-Lipschitz
+    d_o >= d_o(c) + min_k g . (b_k - c)          that of a convex solid is convex: a plane with normal g supports it
+
+The second is exact to second order in the piece's size, so few cuts are needed. The walls of the map bound a hull by
+its corners. A piece that is not decided is halved (de Casteljau); a curve that needs more than MOST_PIECES is not
+proved. Rounding moves no bound by more than some hundred units in the last place; MARGIN times the map's size is far
+above.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from planner.bspline import FloatArray, bezier_pieces
+from planner.distance import solid_distance
+from planner.worlds import World
+
+MARGIN = 1e-11
+"""Rounding margin as a fraction of the largest coordinate (double precision carries 1.1e-16)."""
+MOST_PIECES = 20_000
+DEEPEST = 40
+TOLERANCE = 1e-3
+"""How far below the truth a proved distance may be [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What was proved about a curve. Bounds are lower bounds everywhere on it, the rounding margin taken off."""
+
+    certified: bool  # radius kept from every solid and every wall
+    obstacle_distance: float  # [m] inf in an empty world, -inf when not proved
+    wall_distance: float  # [m]
+    pieces: int
+
+
+@njit(cache=True, nogil=True)
+def prove(
+    pieces: FloatArray, solids: FloatArray, walls: FloatArray, enough: float, wall_enough: float, tolerance: float
+) -> tuple[float, float, int]:
+    """(bound on the distance to solids, bound on the distance to walls, pieces looked at).
+
+    A piece is done when it proves `enough`, or comes within `tolerance` of the least distance seen on the curve itself.
+    Gives up at once where a point of the curve is nearer than `enough` and `enough` is finite.
+    """
+    stack = np.empty((DEEPEST + 1, 4, 3))
+    depth = np.empty(DEEPEST + 1, dtype=np.int64)
+    seen, wall_seen = np.inf, np.inf
+    bound, wall_bound = np.inf, np.inf
+    looked = 0
+    c = np.empty(3)
+    for piece in range(pieces.shape[0]):  # points on the curve, so that few pieces are cut finer than they need to be
+        for o in range(solids.shape[0]):
+            d, _, _, _ = solid_distance(solids[o], pieces[piece, 0, 0], pieces[piece, 0, 1], pieces[piece, 0, 2])
+            seen = min(seen, d)
+    for first in range(pieces.shape[0]):
+        stack[0] = pieces[first]
+        depth[0] = 0
+        top = 1
+        while top > 0:
+            top -= 1
+            b = stack[top]
+            looked += 1
+            wall_low, reach = np.inf, 0.0
+            for a in range(3):
+                c[a] = (b[0, a] + 3.0 * (b[1, a] + b[2, a]) + b[3, a]) / 8.0
+                wall_seen = min(wall_seen, min(c[a] - walls[0, a], walls[1, a] - c[a]))
+                for k in range(4):
+                    wall_low = min(wall_low, min(b[k, a] - walls[0, a], walls[1, a] - b[k, a]))
+            for k in range(4):
+                e0, e1, e2 = b[k, 0] - c[0], b[k, 1] - c[1], b[k, 2] - c[2]
+                reach = max(reach, e0 * e0 + e1 * e1 + e2 * e2)
+            reach = math.sqrt(reach)
+            low = np.inf
+            for o in range(solids.shape[0]):
+                d, g0, g1, g2 = solid_distance(solids[o], c[0], c[1], c[2])
+                seen = min(seen, d)
+                if d - reach >= low:
+                    continue
+                plane = 0.0
+                for k in range(4):
+                    plane = min(plane, g0 * (b[k, 0] - c[0]) + g1 * (b[k, 1] - c[1]) + g2 * (b[k, 2] - c[2]))
+                low = min(low, d + max(plane, -reach))
+            if (seen < enough and enough < np.inf) or wall_seen < wall_enough:
+                return -np.inf, -np.inf, looked
+            if low >= min(enough, seen - tolerance) and wall_low >= min(wall_enough, wall_seen - tolerance):
+                bound, wall_bound = min(bound, low), min(wall_bound, wall_low)
+                continue
+            if depth[top] >= DEEPEST - 1 or looked >= MOST_PIECES:
+                return -np.inf, -np.inf, looked
+            for a in range(3):  # de Casteljau at one half; the left half replaces b on the stack
+                b0, b1, b2, b3 = b[0, a], b[1, a], b[2, a], b[3, a]
+                m0, m1, m2 = 0.5 * (b0 + b1), 0.5 * (b1 + b2), 0.5 * (b2 + b3)
+                n0, n1 = 0.5 * (m0 + m1), 0.5 * (m1 + m2)
+                mid = 0.5 * (n0 + n1)
+                right = stack[top + 1]
+                right[0, a], right[1, a], right[2, a], right[3, a] = mid, n1, m2, b3
+                b[1, a], b[2, a], b[3, a] = m0, n0, mid
+            depth[top] += 1
+            depth[top + 1] = depth[top]
+            top += 2
+    return bound, wall_bound, looked
+
+
+def certify(
+    control_points: FloatArray, knots: FloatArray, world: World, radius: float, full: bool = True
+) -> Certificate:
+    """Prove that a cubic curve keeps `radius` from every solid and every wall, or say that it is not proved.
+
+    Parameters
+    ----------
+    control_points : (n, 3)   [m].
+    knots : (n + 4,)          clamped.
+    radius : float            [m].
+    full : bool               True finds the least distance to TOLERANCE; False stops at the radius, which is faster.
+    """
+    margin = MARGIN * max(1.0, float(np.abs(world.walls).max()))
+    if len(world.solids):
+        margin = max(margin, MARGIN * float(np.abs(world.solids[:, 1:]).max()))
+    need = radius + 2 * margin
+    pieces = np.ascontiguousarray(bezier_pieces(control_points, knots))
+    low, wall, looked = prove(pieces, world.solids, world.walls, np.inf if full else need, need, TOLERANCE)
+    low, wall = low - margin, wall - margin
+    return Certificate(bool(low >= radius and wall >= radius), low, wall, looked)

@@ -1,0 +1,357 @@
+"""What a good curve is: short, smooth, clear (the paper's Eq. 36, its terms in computable form).
+
+With u in [0, 1], D the length of the way (known roughly beforehand) and P the control points,
+
+    J = J_stretch + J_smooth + J_obstacle                                                       [m]        Eq. 36
+    J_stretch  = (1/D) int |C'|^2 du                = (1/D) tr(P^T S P),  S_ij = int N_i' N_j'             Eq. 37
+    J_smooth   = (1/D) (tau/T)^2 int |C''|^2 du     = (1/D) (tau/T)^2 tr(P^T Q P),  Q_ij = int N_i'' N_j'' Eq. 38
+    J_obstacle = k D/c^2 int sum_o h(c - d_o(C)) du                                                        Eq. 39
+    h(e) = 0 for e <= 0;  e^3 for e <= c;  3 c e^2 - 3 c^2 e + c^3 beyond (twice continuously differentiable)
+
+Where this leaves the printed equations:
+- Eq. 37 prints the integral of C', which is C(1) - C(0). The length is the integral of |C'|; its square is at most
+  int |C'|^2, with equality at constant speed. So the stretch has the shortest curves as minimisers, run at an even
+  speed, which is what uniform knots want, and it is a quadratic form.
+- Eq. 38 sums squares of single terms; the square of the sum is the quadratic form above. tau = speed/acceleration
+  limit is the time to reach full speed and T the time to cover D at it: then J_stretch + J_smooth is int |v|^2 +
+  tau^2 |a|^2 dt in other units, whose minimiser reaches its speed with the time constant tau. No weight is left to
+  tune, but a fast, weak vehicle would round off more than any gap lets pass: tau speed is kept below SOFTEST.
+- Eq. 39 grows with the distance from an obstacle, so minimising it attracts. A hinge on the signed distance d repels,
+  inside c = radius + buffer only; walls of the map are obstacles with d = distance to the wall.
+
+The integral of h is a midpoint rule with SAMPLES points a span. A grid of cells lists the solids within c of each cell,
+so a sample looks at those alone.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.bspline import DEGREE, FloatArray, basis, clamped_knots, gram_matrix
+from planner.distance import BOX, CYLINDER, solid_distance
+from planner.limits import Limits
+from planner.worlds import World
+
+SAMPLES = 8
+"""Samples of the obstacle term in each span."""
+FIXED = 3
+"""Control points pinned at each end: three equal ones are rest with zero acceleration (see `timing`)."""
+WEIGHT = 30.0
+"""k: a corner of 0.45 m radius then bends the curve in by about a fifth of c."""
+SOFTEST = 1.5
+"""Largest way [m] over which smoothness lets the speed change."""
+MOST_CELLS = 30_000
+
+IntArray = NDArray[np.int64]
+
+
+class Grid(NamedTuple):
+    """Solids near each cell of a regular grid over the map: cell i lists items[starts[i]:starts[i + 1]]."""
+
+    origin: FloatArray  # (3,) [m]
+    per_metre: float  # cells a metre
+    shape: IntArray  # (3,)
+    starts: IntArray  # (cells + 1,)
+    items: IntArray
+
+
+class Problem(NamedTuple):
+    """Everything the kernel reads, and its scratch (so one problem serves one thread)."""
+
+    energy: FloatArray  # (f, f) quadratic form of the free control points, banded [1/m]
+    linear: FloatArray  # (f, 3) what the fixed ends add to half its gradient
+    constant: float  # [m]
+    basis: FloatArray  # (spans, 4, SAMPLES)
+    points: FloatArray  # (n, 3) scratch; its ends hold the fixed control points
+    slopes: FloatArray  # (n, 3) scratch
+    sample: FloatArray  # (3, SAMPLES) scratch
+    solids: FloatArray  # (k, 7)
+    walls: FloatArray  # (2, 3)
+    grid: Grid
+    reach: float  # c [m]
+    scale: float  # k D / (c^2 samples) [1/m^2]
+
+
+@dataclass(frozen=True, slots=True)
+class CostTerms:
+    """The three terms of Eq. 36 [m]."""
+
+    stretch: float
+    smoothness: float
+    obstacle: float
+
+    @property
+    def total(self) -> float:
+        return self.stretch + self.smoothness + self.obstacle
+
+
+@njit(cache=True, nogil=True)
+def _cell_range(s: FloatArray, axis: int, reach: float, grid: Grid) -> tuple[int, int]:
+    """First and one past the last cell along an axis that solid s comes within reach of."""
+    if s[0] == BOX:
+        half = s[4 + axis]
+    elif s[0] == CYLINDER and axis == 2:
+        half = s[5]
+    else:
+        half = s[4]
+    low = math.floor((s[1 + axis] - half - reach - grid.origin[axis]) * grid.per_metre)
+    high = math.floor((s[1 + axis] + half + reach - grid.origin[axis]) * grid.per_metre) + 1
+    last = grid.shape[axis]
+    return min(max(low, 0), last), min(max(high, 0), last)
+
+
+@njit(cache=True, nogil=True)
+def fill_grid(solids: FloatArray, reach: float, grid: Grid, counting: bool) -> None:
+    """Two passes over the same cells: count into `starts` (shifted by one), then write into `items`."""
+    ny, nz = grid.shape[1], grid.shape[2]
+    for k in range(solids.shape[0]):
+        x0, x1 = _cell_range(solids[k], 0, reach, grid)
+        y0, y1 = _cell_range(solids[k], 1, reach, grid)
+        z0, z1 = _cell_range(solids[k], 2, reach, grid)
+        for ix in range(x0, x1):
+            for iy in range(y0, y1):
+                for iz in range(z0, z1):
+                    cell = (ix * ny + iy) * nz + iz
+                    if counting:
+                        grid.starts[cell + 1] += 1
+                    else:
+                        grid.items[grid.starts[cell]] = k
+                        grid.starts[cell] += 1
+
+
+def build_grid(world: World, reach: float) -> Grid:
+    """The grid whose cells list every solid within `reach` [m] of any of their points."""
+    extent = world.walls[1] - world.walls[0]
+    per_metre = min(1.0, float(MOST_CELLS / np.prod(np.maximum(extent, 1.0))) ** (1 / 3))
+    shape = np.maximum(np.ceil(extent * per_metre), 1).astype(np.int64)
+    starts = np.zeros(int(np.prod(shape)) + 1, dtype=np.int64)
+    empty = Grid(world.walls[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64))
+    fill_grid(world.solids, reach, empty, True)
+    ends = np.cumsum(starts)
+    grid = empty._replace(starts=ends.copy(), items=np.empty(int(ends[-1]), dtype=np.int64))
+    fill_grid(world.solids, reach, grid, False)
+    return grid._replace(starts=ends)  # the second pass moved each start to its end
+
+
+@njit(cache=True, nogil=True)
+def hinge(e: float, c: float) -> tuple[float, float]:
+    """(h, dh/de) of the corrected Eq. 39; e > 0."""
+    if e <= c:
+        return e * e * e, 3.0 * e * e
+    return 3.0 * c * e * e - 3.0 * c * c * e + c * c * c, 6.0 * c * e - 3.0 * c * c
+
+
+@njit(cache=True, nogil=True)
+def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
+    """Stretch and smoothness of the free control points x (3 f,), gradient written (3 f,)."""
+    f = p.energy.shape[0]
+    cost = p.constant
+    for i in range(f):
+        a0, a1, a2 = p.linear[i, 0], p.linear[i, 1], p.linear[i, 2]
+        b0, b1, b2 = a0, a1, a2
+        for j in range(max(i - DEGREE, 0), min(i + DEGREE + 1, f)):
+            m = p.energy[i, j]
+            a0 += m * x[3 * j]
+            a1 += m * x[3 * j + 1]
+            a2 += m * x[3 * j + 2]
+        cost += x[3 * i] * (a0 + b0) + x[3 * i + 1] * (a1 + b1) + x[3 * i + 2] * (a2 + b2)
+        gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2] = 2.0 * a0, 2.0 * a1, 2.0 * a2
+    return cost
+
+
+@njit(cache=True, nogil=True)
+def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
+    """Obstacle term of the free control points x (3 f,), gradient added to (3 f,)."""
+    f, c, grid, sample, points, slopes = p.energy.shape[0], p.reach, p.grid, p.sample, p.points, p.slopes
+    nx, ny, nz = grid.shape[0], grid.shape[1], grid.shape[2]
+    for i in range(f):
+        for a in range(3):
+            points[FIXED + i, a] = x[3 * i + a]
+    slopes[:, :] = 0.0
+    total = 0.0
+    for span in range(p.basis.shape[0]):
+        b = p.basis[span]
+        near_wall = False
+        for a in range(3):
+            p0, p1, p2, p3 = points[span, a], points[span + 1, a], points[span + 2, a], points[span + 3, a]
+            for s in range(SAMPLES):
+                sample[a, s] = b[0, s] * p0 + b[1, s] * p1 + b[2, s] * p2 + b[3, s] * p3
+            if min(min(p0, p1), min(p2, p3)) < p.walls[0, a] + c or max(max(p0, p1), max(p2, p3)) > p.walls[1, a] - c:
+                near_wall = True  # a hull clear of the walls is a span clear of them
+        for s in range(SAMPLES):
+            px, py, pz = sample[0, s], sample[1, s], sample[2, s]
+            ix = min(max(int((px - grid.origin[0]) * grid.per_metre), 0), nx - 1)
+            iy = min(max(int((py - grid.origin[1]) * grid.per_metre), 0), ny - 1)
+            iz = min(max(int((pz - grid.origin[2]) * grid.per_metre), 0), nz - 1)
+            cell = (ix * ny + iy) * nz + iz
+            first, end = grid.starts[cell], grid.starts[cell + 1]
+            if first == end and not near_wall:
+                continue
+            fx, fy, fz = 0.0, 0.0, 0.0
+            for item in range(first, end):
+                d, gx, gy, gz = solid_distance(p.solids[grid.items[item]], px, py, pz)
+                if d < c:
+                    h, dh = hinge(c - d, c)
+                    total += h
+                    fx -= dh * gx
+                    fy -= dh * gy
+                    fz -= dh * gz
+            if near_wall:
+                for a in range(3):
+                    v = sample[a, s]
+                    push = 0.0
+                    if v < p.walls[0, a] + c:
+                        h, dh = hinge(p.walls[0, a] + c - v, c)
+                        total += h
+                        push -= dh
+                    if v > p.walls[1, a] - c:
+                        h, dh = hinge(v - p.walls[1, a] + c, c)
+                        total += h
+                        push += dh
+                    if a == 0:
+                        fx += push
+                    elif a == 1:
+                        fy += push
+                    else:
+                        fz += push
+            for q in range(4):
+                slopes[span + q, 0] += b[q, s] * fx
+                slopes[span + q, 1] += b[q, s] * fy
+                slopes[span + q, 2] += b[q, s] * fz
+    for i in range(f):
+        for a in range(3):
+            gradient[3 * i + a] += p.scale * slopes[FIXED + i, a]
+    return p.scale * total
+
+
+@njit(cache=True, nogil=True)
+def cost_gradient(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
+    """J(x) [m] with its gradient [1] written into `gradient`; x (3 f,) are the free control points, row after row."""
+    energy: float = add_energy(x, gradient, p)
+    obstacles: float = add_obstacles(x, gradient, p)
+    return energy + obstacles
+
+
+class SplineCost:
+    """The cost of curves from `start` to `goal`, at rest at both ends, with n control points.
+
+    Parameters
+    ----------
+    world : World
+    start, goal : (3,)    [m].
+    n : int               control points, more than 2 FIXED.
+    limits : Limits       speed and acceleration fix the weight of smoothness.
+    reach : float         c, where the hinge begins [m]; positive.
+    length : float        D, about how long the way will be [m]; the straight distance when not given.
+    grid : Grid           of `build_grid(world, c)` with at least this reach; built when not given.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        start: FloatArray,
+        goal: FloatArray,
+        n: int,
+        limits: Limits,
+        reach: float,
+        weight: float = WEIGHT,
+        length: float | None = None,
+        grid: Grid | None = None,
+    ) -> None:
+        if n <= 2 * FIXED:
+            raise ValueError(f"control points: expected more than {2 * FIXED}, found {n}")
+        if not reach > 0.0:
+            raise ValueError(f"reach: expected above 0 m, found {reach}")
+        self.n, self.size = n, 3 * (n - 2 * FIXED)
+        self.world, self.reach, self.weight = world, reach, weight
+        self.ends = np.array([start, goal], dtype=np.float64)
+        shape = _Shape.of(n)
+        soft = min(limits.speed**2 / limits.acceleration, SOFTEST)  # tau speed
+        straight = float(np.linalg.norm(self.ends[1] - self.ends[0]))
+        self.distance = max(straight if length is None else length, soft)
+        self._smooth = (soft / (self.distance + soft)) ** 2 * shape.smoothness / self.distance
+        self._stretch = shape.stretch / self.distance
+        whole = self._stretch + self._smooth
+        points = np.repeat(self.ends, (FIXED, n - FIXED), axis=0)
+        free = slice(FIXED, n - FIXED)
+        ends = points.copy()
+        ends[free] = 0.0
+        linear = whole[free] @ ends
+        spans = n - DEGREE
+        self.problem = Problem(
+            energy=np.ascontiguousarray(whole[free, free]),
+            linear=linear,
+            constant=float(np.einsum("ia,ij,ja->", ends, whole, ends)),
+            basis=shape.basis,
+            points=points,
+            slopes=np.zeros((n, 3)),
+            sample=np.zeros((3, SAMPLES)),
+            solids=world.solids,
+            walls=world.walls,
+            grid=build_grid(world, reach) if grid is None else grid,
+            reach=reach,
+            scale=weight * self.distance / (reach**2 * spans * SAMPLES),
+        )
+        self.inverse_energy: FloatArray = np.linalg.inv(self.problem.energy)
+        self._gradient = np.zeros(self.size)
+
+    def harder(self, factor: float) -> None:
+        """Weigh obstacles `factor` times more from now on."""
+        self.weight *= factor
+        self.problem = self.problem._replace(scale=self.problem.scale * factor)
+
+    def __call__(self, x: FloatArray) -> tuple[float, FloatArray]:
+        """J [m] and its gradient (3 f,) at the free control points x (3 f,)."""
+        gradient = np.empty(self.size)
+        return float(cost_gradient(np.ascontiguousarray(x, dtype=np.float64), gradient, self.problem)), gradient
+
+    def control_points(self, x: FloatArray) -> FloatArray:
+        """All control points (n, 3) [m] from the free ones (3 f,)."""
+        points = np.repeat(self.ends, (FIXED, self.n - FIXED), axis=0)
+        points[FIXED : self.n - FIXED] = np.asarray(x).reshape(-1, 3)
+        return points
+
+    def stretch(self, x: FloatArray) -> float:
+        """J_stretch [m], from the quadratic form on all control points."""
+        points = self.control_points(x)
+        return float(np.einsum("ia,ij,ja->", points, self._stretch, points))
+
+    def smoothness(self, x: FloatArray) -> float:
+        """J_smooth [m], from the quadratic form on all control points."""
+        points = self.control_points(x)
+        return float(np.einsum("ia,ij,ja->", points, self._smooth, points))
+
+    def obstacle(self, x: FloatArray) -> float:
+        """J_obstacle [m]."""
+        return float(add_obstacles(np.ascontiguousarray(x, dtype=np.float64), np.zeros(self.size), self.problem))
+
+    def terms(self, x: FloatArray) -> CostTerms:
+        """The three terms apart."""
+        return CostTerms(self.stretch(x), self.smoothness(x), self.obstacle(x))
+
+
+class _Shape:
+    """What depends on the number of control points alone; kept, since most plans use the same few."""
+
+    _kept: "dict[int, _Shape]" = {}  # noqa: RUF012 a cache of pure values, keyed by n
+
+    def __init__(self, n: int) -> None:
+        knots = clamped_knots(n)
+        spans = n - DEGREE
+        u = (np.arange(spans * SAMPLES) + 0.5) / (spans * SAMPLES)
+        full = basis(knots, n, u).reshape(spans, SAMPLES, n)
+        self.basis: FloatArray = np.empty((spans, 4, SAMPLES))
+        for span in range(spans):
+            self.basis[span] = full[span, :, span : span + 4].T
+        self.stretch: FloatArray = gram_matrix(knots, n, 1)
+        self.smoothness: FloatArray = gram_matrix(knots, n, 2)
+
+    @classmethod
+    def of(cls, n: int) -> "_Shape":
+        if n not in cls._kept:
+            cls._kept[n] = cls(n)
+        return cls._kept[n]

@@ -1,0 +1,120 @@
+"""What can go wrong, and by how much.
+
+    PlannerError
+      KnotError             a knot vector is not one
+      InfeasibleLimits      a limit nothing can move under (also a ValueError)
+      EndpointError
+        StartInCollision    GoalInCollision       closer to an obstacle than the radius
+        StartOutOfBounds    GoalOutOfBounds       closer to a wall of the map than the radius, or beyond it
+      NoPathFound           the search ended without a certified trajectory
+
+Every number in a message is also an attribute. All of them survive pickling, since plans are made in worker processes:
+the constructor's arguments are exactly `Exception.args`, and the sentence is built when it is read.
+"""
+
+from typing import ClassVar
+
+Point = tuple[float, float, float]
+AXES = "xyz"
+
+
+def _point(p: Point) -> str:
+    return "(" + ", ".join(f"{v:.2f}" for v in p) + ")"
+
+
+class PlannerError(Exception):
+    """Root of everything this package raises on purpose, misuse of a constructor (ValueError) apart."""
+
+
+class KnotError(PlannerError):
+    """A knot vector has the wrong length, decreases, is not clamped, or repeats a knot too often."""
+
+
+class InfeasibleLimits(PlannerError, ValueError):
+    """A limit under which nothing can move: not finite or not positive."""
+
+    def __init__(self, name: str, value: float) -> None:
+        super().__init__(name, value)
+        self.name, self.value = name, value
+
+    def __str__(self) -> str:
+        return f"limit {self.name}: expected a finite number above 0, found {self.value:g}"
+
+
+class EndpointError(PlannerError):
+    """The start or the goal is a place where the vehicle cannot be."""
+
+    which: ClassVar[str]
+
+
+class _InCollision(EndpointError):
+    def __init__(self, point: Point, obstacle: int, kind: str, distance: float, radius: float) -> None:
+        super().__init__(point, obstacle, kind, distance, radius)
+        self.point, self.obstacle, self.kind = point, obstacle, kind
+        self.distance, self.radius = distance, radius
+        self.shortfall = radius - distance
+
+    def __str__(self) -> str:
+        where = f"{self.distance:.3f} m from" if self.distance >= 0 else f"{-self.distance:.3f} m inside"
+        return (
+            f"{self.which} {_point(self.point)} is {where} obstacle {self.obstacle} ({self.kind}); "
+            f"the radius asks for {self.radius:.3f} m, {self.shortfall:.3f} m more"
+        )
+
+
+class StartInCollision(_InCollision):
+    """The start is closer than `radius` to obstacle number `obstacle`; `distance` is negative inside it [m]."""
+
+    which = "start"
+
+
+class GoalInCollision(_InCollision):
+    """The goal is closer than `radius` to obstacle number `obstacle`; `distance` is negative inside it [m]."""
+
+    which = "goal"
+
+
+class _OutOfBounds(EndpointError):
+    def __init__(self, point: Point, axis: int, side: str, bound: float, distance: float, radius: float) -> None:
+        super().__init__(point, axis, side, bound, distance, radius)
+        self.point, self.axis, self.side, self.bound = point, axis, side, bound
+        self.distance, self.radius = distance, radius
+        self.shortfall = radius - distance
+
+    def __str__(self) -> str:
+        wall = f"the {self.side} {AXES[self.axis]} bound {self.bound:g} m"
+        where = f"{self.distance:.3f} m inside" if self.distance >= 0 else f"{-self.distance:.3f} m beyond"
+        return (
+            f"{self.which} {_point(self.point)} is {where} {wall}; "
+            f"the radius asks for {self.radius:.3f} m inside, {self.shortfall:.3f} m more"
+        )
+
+
+class StartOutOfBounds(_OutOfBounds):
+    """The start is beyond a wall of the map, or nearer to it than `radius`; `distance` is negative beyond it [m]."""
+
+    which = "start"
+
+
+class GoalOutOfBounds(_OutOfBounds):
+    """The goal is beyond a wall of the map, or nearer to it than `radius`; `distance` is negative beyond it [m]."""
+
+    which = "goal"
+
+
+class NoPathFound(PlannerError):
+    """The search spent its budget and nothing it found could be proved clear.
+
+    `shortfall` [m] is by how much the best curve found misses the radius; `tried` counts the curves that were polished
+    and put to the proof. This is "gave up", not "proved unreachable".
+    """
+
+    def __init__(self, tried: int, evaluations: int, shortfall: float, radius: float) -> None:
+        super().__init__(tried, evaluations, shortfall, radius)
+        self.tried, self.evaluations, self.shortfall, self.radius = tried, evaluations, shortfall, radius
+
+    def __str__(self) -> str:
+        return (
+            f"no path found: {self.tried} curves polished with {self.evaluations} evaluations, none keeps "
+            f"{self.radius:.3f} m everywhere; the best one lacks {self.shortfall:.3f} m"
+        )

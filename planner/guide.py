@@ -1,0 +1,168 @@
+"""The way round, when bows do not find it: A* on a coarse grid of the free space, then pulled taut.
+
+The grid is the map less the radius, its cells at most CELL wide; a cell is free when its centre keeps the radius.
+Edges to all 26 neighbours, their middle checked too. The result is a guess for the spline, never a proof: what it
+leads to is proved or refused like any other curve. Hart, Nilsson & Raphael 1968; the heuristic is the straight
+distance.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from planner.bspline import FloatArray
+from planner.distance import nearest_solid
+from planner.worlds import World
+
+CELLS = (0.5, 0.25)
+"""Cell widths tried in turn [m]."""
+MOST_CELLS = 2_000_000
+_SLACK = 1.02  # on the radius: a guide that just touches leaves the spline no room
+
+
+@njit(cache=True, nogil=True)
+def _free(solids: FloatArray, walls: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bool:
+    """Whether the segment from a to b keeps the radius: sphere marching with the 1-Lipschitz distance."""
+    length = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+    t = 0.0
+    while True:
+        f = t / length if length > 0.0 else 0.0
+        d, _ = nearest_solid(solids, a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2]))
+        if d < radius:
+            return False
+        if t >= length:
+            return True
+        t = min(t + max(d - radius, 0.01), length)
+
+
+@njit(cache=True, nogil=True)
+def astar(
+    solids: FloatArray,
+    walls: FloatArray,
+    origin: FloatArray,
+    step: FloatArray,
+    shape: FloatArray,
+    ends: FloatArray,
+    radius: float,
+) -> FloatArray:
+    """Cells' centres (m, 3) from the cell of ends[0] to that of ends[1]; empty when they are not connected.
+
+    origin, step, shape (3,): first centre, spacing, number of cells (whole numbers).
+    """
+    nx, ny, nz = int(shape[0]), int(shape[1]), int(shape[2])
+    total = nx * ny * nz
+    blocked = np.full(total, -1, dtype=np.int8)  # -1 not looked at yet
+    cost = np.full(total, np.inf)
+    parent = np.full(total, -1, dtype=np.int64)
+    index = np.empty((2, 3), dtype=np.int64)
+    for e in range(2):
+        for a in range(3):
+            index[e, a] = min(max(int((ends[e, a] - origin[a]) / step[a] + 0.5), 0), int(shape[a]) - 1)
+    begin = (index[0, 0] * ny + index[0, 1]) * nz + index[0, 2]
+    target = (index[1, 0] * ny + index[1, 1]) * nz + index[1, 2]
+    keys, nodes, size = np.empty(1024), np.empty(1024, dtype=np.int64), 1  # a binary heap
+    keys[0], nodes[0], cost[begin] = 0.0, begin, 0.0
+    while size > 0:
+        node, key = nodes[0], keys[0]
+        size -= 1
+        last_key, last_node, i = keys[size], nodes[size], 0
+        while 2 * i + 1 < size:  # sift down
+            child = 2 * i + 1
+            if child + 1 < size and keys[child + 1] < keys[child]:
+                child += 1
+            if keys[child] >= last_key:
+                break
+            keys[i], nodes[i] = keys[child], nodes[child]
+            i = child
+        keys[i], nodes[i] = last_key, last_node
+        if node == target:
+            break
+        ix, iy, iz = node // (ny * nz), (node // nz) % ny, node % nz
+        h0 = math.sqrt(
+            ((ix - index[1, 0]) * step[0]) ** 2
+            + ((iy - index[1, 1]) * step[1]) ** 2
+            + ((iz - index[1, 2]) * step[2]) ** 2
+        )
+        if key > cost[node] + h0 + 1e-9:
+            continue  # an older, dearer entry
+        for dx in range(-1, 2):
+            for dy in range(-1, 2):
+                for dz in range(-1, 2):
+                    jx, jy, jz = ix + dx, iy + dy, iz + dz
+                    if (dx == 0 and dy == 0 and dz == 0) or not (0 <= jx < nx and 0 <= jy < ny and 0 <= jz < nz):
+                        continue
+                    other = (jx * ny + jy) * nz + jz
+                    way = math.sqrt((dx * step[0]) ** 2 + (dy * step[1]) ** 2 + (dz * step[2]) ** 2)
+                    if cost[node] + way >= cost[other] or blocked[other] == 1:
+                        continue
+                    px, py, pz = origin[0] + jx * step[0], origin[1] + jy * step[1], origin[2] + jz * step[2]
+                    if blocked[other] == -1:
+                        d, _ = nearest_solid(solids, px, py, pz)
+                        blocked[other] = 1 if d < radius and other != target else 0
+                        if blocked[other] == 1:
+                            continue
+                    d, _ = nearest_solid(
+                        solids, px - 0.5 * dx * step[0], py - 0.5 * dy * step[1], pz - 0.5 * dz * step[2]
+                    )
+                    if d < radius and node != begin and other != target:
+                        continue
+                    cost[other], parent[other] = cost[node] + way, node
+                    key = cost[other] + math.sqrt(
+                        ((jx - index[1, 0]) * step[0]) ** 2
+                        + ((jy - index[1, 1]) * step[1]) ** 2
+                        + ((jz - index[1, 2]) * step[2]) ** 2
+                    )
+                    if size == keys.shape[0]:
+                        keys, nodes = np.append(keys, np.empty_like(keys)), np.append(nodes, np.empty_like(nodes))
+                    i = size
+                    size += 1
+                    while i > 0 and keys[(i - 1) // 2] > key:  # sift up
+                        keys[i], nodes[i] = keys[(i - 1) // 2], nodes[(i - 1) // 2]
+                        i = (i - 1) // 2
+                    keys[i], nodes[i] = key, other
+    if cost[target] == np.inf:
+        return np.empty((0, 3))
+    count, node = 1, target
+    while node != begin:
+        node = parent[node]
+        count += 1
+    path, node = np.empty((count, 3)), target
+    for i in range(count - 1, -1, -1):
+        path[i, 0] = origin[0] + (node // (ny * nz)) * step[0]
+        path[i, 1] = origin[1] + ((node // nz) % ny) * step[1]
+        path[i, 2] = origin[2] + (node % nz) * step[2]
+        node = parent[node]
+    return path
+
+
+@njit(cache=True, nogil=True)
+def pull_taut(solids: FloatArray, walls: FloatArray, radius: float, path: FloatArray) -> FloatArray:
+    """The corners (m, 3) left when every point that the one after next can be seen past is dropped."""
+    kept = np.empty_like(path)
+    kept[0] = path[0]
+    count, i, last = 1, 0, path.shape[0] - 1
+    while i < last:
+        j = i + 1
+        while j < last and _free(solids, walls, radius, path[i], path[j + 1]):
+            j += 1
+        kept[count] = path[j]
+        count += 1
+        i = j
+    return kept[:count].copy()
+
+
+def guide(world: World, start: FloatArray, goal: FloatArray, radius: float) -> FloatArray | None:
+    """A polyline (m, 3) [m] from start to goal through free cells, or None when the grids show no way."""
+    low, high = world.walls[0] + radius, world.walls[1] - radius
+    ends = np.array([start, goal])
+    for width in CELLS:
+        shape = np.maximum(np.ceil((high - low) / width), 1.0) + 1.0
+        if float(np.prod(shape)) > MOST_CELLS:
+            continue
+        step = np.maximum((high - low) / (shape - 1.0), 1e-9)
+        path = astar(world.solids, world.walls, low, step, shape, ends, radius * _SLACK)
+        if len(path):
+            whole = np.concatenate([ends[:1], path[1:-1], ends[1:]])
+            return np.asarray(pull_taut(world.solids, world.walls, radius * _SLACK, whole))
+    return None

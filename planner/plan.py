@@ -1,0 +1,282 @@
+"""One plan, from the world to a proved trajectory.
+
+    fan of bows -> HAOAROA on the spline's cost -> L-BFGS on the distinct best -> certificate -> best -> timing -> proof
+
+When none of the fan can be proved, a coarse search graph gives the way round and the same polish follows it. The result
+is certified or it is not a result: `NoPathFound` is raised instead.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner import errors
+from planner.bspline import DEGREE, FloatArray, clamped_knots, derivative_control_points, evaluate
+from planner.certificate import certify
+from planner.cost import FIXED, WEIGHT, SplineCost
+from planner.descent import polish, search
+from planner.distance import nearest_solid
+from planner.guide import guide
+from planner.limits import Limits
+from planner.search.haoaroa import ITERATIONS, POPULATION, Haoaroa
+from planner.seeds import along_path, fan
+from planner.stopwatch import Stopwatch
+from planner.timing import uniform_scaling, within
+from planner.trajectory import Trajectory
+from planner.worlds import Box, Point, World, as_point
+
+METHODS = ("haoaroa",)
+SPACING = 1.4
+"""Aimed distance between control points [m]."""
+FEWEST, MOST = 16, 120
+"""Control points of a plan."""
+BLOCK, GAIN = 10, 0.01
+"""HAOAROA stops when BLOCK iterations gain less than this fraction of the cost: the polish is the better finisher."""
+ELITES = 4
+STIFFER = (1.0, 4.0, 8.0)
+"""Factors on the obstacle weight, tried in turn until a curve is proved."""
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """How a plan came about and what it is like."""
+
+    evaluations: int  # of the cost with its gradient
+    iterations: int  # of the search
+    seeds_tried: int  # curves polished and put to the proof
+    seeds_certified: int
+    guided: bool  # whether the search graph had to help
+    stretch: float  # J_stretch [m]
+    smoothness: float  # J_smooth [m]
+    obstacle: float  # J_obstacle, at its first weight [m]
+    curvature_max: float  # of the shape, sampled [1/m]
+    jerk_integral: float  # int |jerk|^2 dt, exact [m^2/s^5]
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A trajectory, at rest at both ends, and what was proved about it."""
+
+    trajectory: Trajectory
+    length: float  # [m]
+    clearance: (
+        float  # proved lower bound on the distance to the nearest obstacle, minus the radius [m]; inf without any
+    )
+    certified: bool  # the whole curve keeps the radius from obstacles and walls, and the limits hold everywhere
+    cpu_ms: float  # CPU time of this thread [ms]; the one number here that differs from run to run
+    method: str
+    report: Report
+
+
+def plan(
+    world: World,
+    start: Sequence[float] | FloatArray,
+    goal: Sequence[float] | FloatArray,
+    limits: Limits,
+    radius: float,
+    seed: int = 0,
+    method: str = "haoaroa",
+) -> Plan:
+    """Plan from rest at `start` to rest at `goal`.
+
+    Parameters
+    ----------
+    world : World
+    start, goal : (3,)      in the world's frame [m].
+    limits : Limits         Euclidean norms of velocity, acceleration and jerk.
+    radius : float          distance that the curve keeps from obstacles and from the walls of the map [m].
+    seed : int              same arguments and seed: same plan, `cpu_ms` apart.
+    method : str            one of METHODS.
+
+    Raises
+    ------
+    ValueError : an unknown method, a radius that is not finite and at least 0, or a point that is not three numbers.
+    StartInCollision, GoalInCollision, StartOutOfBounds, GoalOutOfBounds : which obstacle or wall, and by how much.
+    NoPathFound : nothing could be proved within the budget.
+    """
+    watch = Stopwatch()
+    if method not in METHODS:
+        raise ValueError(f"method: expected one of {', '.join(METHODS)}, found {method!r}")
+    if not (np.isfinite(radius) and radius >= 0.0):
+        raise ValueError(f"radius: expected a finite number of at least 0 m, found {radius}")
+    a, b = as_point("start", start), as_point("goal", goal)
+    check_endpoint(world, a, radius, errors.StartInCollision, errors.StartOutOfBounds)
+    check_endpoint(world, b, radius, errors.GoalInCollision, errors.GoalOutOfBounds)
+    return _Search(world, np.array(a), np.array(b), limits, float(radius), seed).run(method, watch)
+
+
+def warm_up() -> None:
+    """Compile every kernel, so that the next plan is fast: seconds after a fresh installation, else a fraction of one.
+
+    Plans in a room whose only door is off every bow, so that the search graph is compiled too.
+    """
+    obstacles = [Box((2.0, -1.0, -1.0), (2.5, 4.2, 5.0)), Box((4.0, 0.8, -1.0), (4.5, 6.0, 5.0))]
+    world = World(bounds=((0.0, 0.0, 0.0), (6.0, 5.0, 1.0)), obstacles=obstacles)
+    ends = np.array([[0.5, 1.0, 0.5], [5.5, 1.0, 0.5]])
+    guide(world, ends[0], ends[1], 0.1)
+    world.distance(ends)
+    plan(world, ends[0], ends[1], Limits(1.0, 1.0, 10.0), 0.1)
+
+
+def check_endpoint(
+    world: World,
+    point: Point,
+    radius: float,
+    collision: type[errors.StartInCollision] | type[errors.GoalInCollision],
+    outside: type[errors.StartOutOfBounds] | type[errors.GoalOutOfBounds],
+) -> None:
+    """Raise `outside` or `collision` unless the point keeps the radius from every wall and obstacle."""
+    low, high = world.bounds
+    ways = [(point[i] - low[i], i, "lower", low[i]) for i in range(3)]
+    ways += [(high[i] - point[i], i, "upper", high[i]) for i in range(3)]
+    distance, axis, side, bound = min(ways)
+    if distance < radius:
+        raise outside(point, axis, side, bound, distance, radius)
+    nearest, index = nearest_solid(world.solids, *point)
+    if nearest < radius:
+        raise collision(point, index, type(world.obstacles[index]).__name__.lower(), nearest, radius)
+
+
+@dataclass(frozen=True, slots=True)
+class _Proved:
+    points: FloatArray
+    x: FloatArray
+    cost: SplineCost
+    value: float  # stretch + smoothness [m]
+
+
+class _Search:
+    """One plan's working state."""
+
+    def __init__(
+        self, world: World, start: FloatArray, goal: FloatArray, limits: Limits, radius: float, seed: int
+    ) -> None:
+        self.world, self.start, self.goal, self.limits, self.radius = world, start, goal, limits, radius
+        self.generator = np.random.default_rng(seed)
+        self.reach = radius + max(0.05, 0.4 * radius)
+        # The last hair keeps a control point on a wall provable in spite of the certificate's rounding margin.
+        hair = 1e-6 * max(1.0, float(np.abs(world.walls).max()))
+        self.lower = np.minimum(world.walls[0] + radius + hair, np.minimum(start, goal))
+        self.upper = np.maximum(world.walls[1] - radius - hair, np.maximum(start, goal))
+        self.evaluations = self.iterations = self.tried = self.certified = 0
+        self.guided = False
+        self.shortfall = np.inf
+
+    def run(self, method: str, watch: Stopwatch) -> Plan:
+        distance = float(np.linalg.norm(self.goal - self.start))
+        cost = self.spline_cost(distance)
+        found = self.prove_all(self.search(cost), cost)
+        if not found:
+            self.guided = True
+            path = guide(self.world, self.start, self.goal, self.radius)
+            if path is not None:
+                length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+                cost = self.spline_cost(length)
+                found = self.prove_all([along_path(path, cost.n)], cost)
+        if not found:
+            raise errors.NoPathFound(self.tried, self.evaluations, self.shortfall, self.radius)
+        return self.finish(min(found, key=lambda p: p.value), method, watch)
+
+    def spline_cost(self, length: float) -> SplineCost:
+        n = int(np.clip(round(length / SPACING) + DEGREE, FEWEST, MOST))
+        return SplineCost(self.world, self.start, self.goal, n, self.limits, self.reach, length=length)
+
+    def search(self, cost: SplineCost) -> list[FloatArray]:
+        """HAOAROA from the fan; its distinct best first, then the fan itself."""
+        seeds = fan(self.start, self.goal, self.lower, self.upper, cost.n, POPULATION, self.generator)
+        f = cost.n - 2 * FIXED
+        optimiser = Haoaroa(
+            np.tile(self.lower, f),
+            np.tile(self.upper, f),
+            self.generator,
+            initial=seeds,
+            budget=POPULATION * ITERATIONS,
+            step=0.02 * cost.distance,
+        )
+        search(optimiser, cost, BLOCK, GAIN)
+        self.evaluations += optimiser.evaluations
+        self.iterations += optimiser.iteration
+        elites: list[FloatArray] = []
+        for i in np.argsort(optimiser.population.best_costs, kind="stable"):
+            x = optimiser.population.best_positions[i]
+            if all(np.abs(x - e).max() > self.reach for e in elites):
+                elites.append(x.copy())
+        return elites
+
+    def prove_all(self, seeds: Sequence[FloatArray], cost: SplineCost) -> list[_Proved]:
+        """Polish the seeds, most promising first, and keep what can be proved; stop after ELITES once something is."""
+        found: list[_Proved] = []
+        for factor in STIFFER:
+            if factor > 1.0:
+                cost.harder(factor)
+            for k, seed in enumerate(seeds):
+                if k >= ELITES and found:
+                    break
+                x, _, evaluations = polish(cost, seed)
+                self.evaluations += evaluations
+                self.tried += 1
+                points = cost.control_points(x)
+                if certify(points, clamped_knots(cost.n), self.world, self.radius, full=False).certified:
+                    self.certified += 1
+                    found.append(_Proved(points, x, cost, cost.stretch(x) + cost.smoothness(x)))
+                elif not found:
+                    self.miss(points)
+            if found:
+                break
+        return found
+
+    def miss(self, points: FloatArray) -> None:
+        """Note by how much an unproved curve misses the radius, for the error."""
+        t = np.linspace(0.0, 1.0, 20 * len(points))
+        samples = evaluate(points, clamped_knots(len(points)), t)
+        least = min(self.world.distance(samples).min(), self.world.wall_distance(samples).min())
+        self.shortfall = min(self.shortfall, max(self.radius - float(least), 0.0))
+
+    def finish(self, best: _Proved, method: str, watch: Stopwatch) -> Plan:
+        knots = uniform_scaling(best.points, self.limits)
+        trajectory = Trajectory(best.points, knots)
+        proof = certify(best.points, knots, self.world, self.radius)
+        best.cost.harder(WEIGHT / best.cost.weight)
+        terms = best.cost.terms(best.x)
+        report = Report(
+            evaluations=self.evaluations,
+            iterations=self.iterations,
+            seeds_tried=self.tried,
+            seeds_certified=self.certified,
+            guided=self.guided,
+            stretch=terms.stretch,
+            smoothness=terms.smoothness,
+            obstacle=terms.obstacle,
+            curvature_max=curvature_max(trajectory),
+            jerk_integral=jerk_integral(trajectory),
+        )
+        return Plan(
+            trajectory=trajectory,
+            length=trajectory.length,
+            clearance=proof.obstacle_distance - self.radius,
+            certified=proof.certified and within(best.points, knots, self.limits),
+            cpu_ms=watch.elapsed_ms(),
+            method=method,
+            report=report,
+        )
+
+
+def curvature_max(trajectory: Trajectory) -> float:
+    """Largest |C' x C''| / |C'|^3 [1/m] on eight samples a span, where the speed is above 1 % of its peak."""
+    spans = len(trajectory.control_points) - DEGREE
+    t = (np.arange(8 * spans) + 0.5) / (8 * spans) * trajectory.duration
+    v, a = trajectory.velocity(t), trajectory.acceleration(t)
+    speed = np.linalg.norm(v, axis=1)
+    moving = speed > 0.01 * speed.max(initial=0.0)
+    if not moving.any():
+        return 0.0
+    return float((np.linalg.norm(np.cross(v[moving], a[moving]), axis=1) / speed[moving] ** 3).max())
+
+
+def jerk_integral(trajectory: Trajectory) -> float:
+    """int |jerk|^2 dt [m^2/s^5]; exact, since the jerk is constant on each span."""
+    points, knots = trajectory.control_points, trajectory.knots
+    for degree in (3, 2, 1):
+        points, knots = derivative_control_points(points, knots, degree), knots[1:-1]
+    return float((np.diff(knots) * (points**2).sum(axis=1)).sum())

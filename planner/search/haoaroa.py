@@ -1,0 +1,247 @@
+"""HAOAROA: Archimedes exploration, then rider exploitation, with the gradient as buoyancy. Ask/tell.
+
+Legend (n_pop candidates of dimension n_dim, iteration t of T):
+    x, v          positions and velocities        x_best, g_best   best of each candidate, best of all
+    s             each candidate's own step length along the gradient (the paper's lambda_p and beta_p)
+    g             gradient divided by its largest component
+    den, vol, acc density, volume, acceleration of the Archimedes Optimization Algorithm (Hashim 2021), without gradient
+    w = 0.8 -> 0.4;  TF = exp((t - T)/T);  d = exp((T - t)/T) - t/T;  c1 = 2.0, c2 = 1.5;  r in U(0, 1), fresh each time
+
+The paper's Eq. 43-49 are not an algorithm yet: Eq. 45 makes "buoyancy" plain gradient descent (44 and 46 then say the
+same), Eq. 47 is the first half of Eq. 48, both gradients of Eq. 49 are gradients of the one J, and lambda, gamma,
+beta, alpha_1, alpha_2 are never given. This is the reading computed here:
+
+    TF <= 1/2:  v = w v + 0.3 r d (x_rand - x)                               - s g     exploration, Eq. 44-45
+    else:       v = w v + (c1 r1 (x_best - x) + c2 r2 (leader - x)) / 2      - s g     exploitation, Eq. 47-48
+    x = x + v, clipped to the bounds, where a clipped component loses its velocity            Eq. 49: both in one update
+    s grows by 1.2 when the cost fell and shrinks to 0.7 of itself when it did not
+
+`leader` is where the four rider groups (Binu & Kariyappa 2019) differ; the original multiplies the leader's
+coordinates, which favours the origin, so each is restated by differences (shift invariant: moving the map moves the
+answer with it):
+    bypass     a random mix of two other riders' bests     follower    g_best, on coordinates that open with t/T
+    overtaker  g_best and as far again beyond it, by r     attacker    g_best
+
+Without a gradient the buoyancy is AOA's own, from den, vol and acc, in its shift-invariant form (X_rand - x, X_best -
+x). Density, volume and acceleration are dimensionless: they only weigh differences of positions.
+
+Every random number of an iteration comes from one block `uniforms` (n_pop, draws), so that `tell` and a fused loop
+which calls `move` itself (see `planner.descent`) make the same moves from the same generator.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+POPULATION = 20
+ITERATIONS = 100
+C1, C2 = 2.0, 1.5
+_AOA_C1, _AOA_C2, _AOA_C3, _AOA_C4 = 2.0, 6.0, 2.0, 0.5  # Hashim 2021, C3 of 1..2 and C4 of 0.5..2
+_GROUPS = 4
+_EXTRA = 8  # uniforms a candidate takes besides two a coordinate
+
+
+class Population(NamedTuple):
+    """Arrays of the whole population; the kernels write into them."""
+
+    positions: FloatArray  # (n_pop, n_dim)
+    velocities: FloatArray  # (n_pop, n_dim)
+    gradients: FloatArray  # (n_pop, n_dim) zero where none was told
+    costs: FloatArray  # (n_pop,) at the positions
+    previous: FloatArray  # (n_pop,) at the positions before
+    best_positions: FloatArray  # (n_pop, n_dim)
+    best_costs: FloatArray  # (n_pop,)
+    steps: FloatArray  # (n_pop,) s
+    traits: FloatArray  # (n_pop, 3) den, vol, acc normalised to [0.1, 1]
+    lower: FloatArray  # (n_dim,)
+    upper: FloatArray  # (n_dim,)
+
+
+def draws(n_dim: int) -> int:
+    """How many uniform numbers one candidate takes an iteration."""
+    return 2 * n_dim + _EXTRA
+
+
+@njit(cache=True, nogil=True)
+def remember(p: Population) -> None:
+    """Keep each candidate's best and adapt its step, once `costs` and `gradients` are filled in."""
+    for i in range(p.costs.shape[0]):
+        if p.costs[i] < p.best_costs[i]:  # greedy selection, after Eq. 46
+            p.best_costs[i] = p.costs[i]
+            p.best_positions[i, :] = p.positions[i]
+        p.steps[i] *= 1.2 if p.costs[i] < p.previous[i] else 0.7
+        p.previous[i] = p.costs[i]
+
+
+@njit(cache=True, nogil=True)
+def move_traits(p: Population, explore: bool, best: int, uniforms: FloatArray) -> None:
+    """AOA's density, volume and acceleration; collisions with a random material, later with the best."""
+    n_pop = p.costs.shape[0]
+    raw = np.empty(n_pop)
+    for i in range(n_pop):
+        u = uniforms[i]
+        other = int(u[5] * n_pop) if explore else best
+        den, vol = p.traits[i, 0], p.traits[i, 1]
+        den += u[6] * (p.traits[best, 0] - den)
+        vol += u[7] * (p.traits[best, 1] - vol)
+        raw[i] = (p.traits[other, 0] + p.traits[other, 1] * p.traits[other, 2]) / (den * vol)
+        p.traits[i, 0], p.traits[i, 1] = den, vol
+    low, high = raw.min(), raw.max()
+    for i in range(n_pop):
+        p.traits[i, 2] = 0.1 + 0.9 * (raw[i] - low) / (high - low) if high > low else 1.0
+
+
+@njit(cache=True, nogil=True)
+def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: bool) -> None:
+    """One iteration's move of every candidate; t = 1 .. last. The one statement of the update rule."""
+    n_pop, n_dim = p.positions.shape
+    progress = t / last
+    TF = math.exp(progress - 1.0)
+    d = math.exp(1.0 - progress) - progress
+    w = 0.8 - 0.4 * progress
+    explore = TF <= 0.5
+    best = int(np.argmin(p.best_costs))
+    if not with_gradient:
+        move_traits(p, explore, best, uniforms)
+    for i in range(n_pop):
+        u = uniforms[i]
+        x, v, mine, leader = p.positions[i], p.velocities[i], p.best_positions[i], p.best_positions[best]
+        random = p.positions[int(u[0] * n_pop)]
+        mate_a, mate_b = p.best_positions[int(u[1] * n_pop)], p.best_positions[int(u[2] * n_pop)]
+        largest = np.abs(p.gradients[i]).max()
+        group = i % _GROUPS
+        sign = 1.0 if 2.0 * u[3] - _AOA_C4 <= 0.5 else -1.0  # AOA's direction flag F
+        for k in range(n_dim):
+            r1, r2 = u[_EXTRA + 2 * k], u[_EXTRA + 2 * k + 1]
+            if explore:
+                pull = 0.3 * r1 * d * (random[k] - x[k])  # Eq. 44, 46
+            else:
+                if group == 0:  # bypass
+                    goal = u[4] * mate_a[k] + (1.0 - u[4]) * mate_b[k]
+                elif group == 1:  # follower
+                    goal = leader[k] if r2 < progress else mine[k]
+                elif group == 2:  # overtaker
+                    goal = leader[k] + u[4] * (leader[k] - x[k])
+                else:  # attacker
+                    goal = leader[k]
+                pull = 0.5 * (C1 * r1 * (mine[k] - x[k]) + C2 * r2 * (goal - x[k]))  # Eq. 47, 48
+            if with_gradient:
+                buoyancy = -p.steps[i] * p.gradients[i, k] / largest if largest > 0.0 else 0.0  # Eq. 45
+            elif explore:
+                buoyancy = _AOA_C1 * r2 * p.traits[i, 2] * d * (random[k] - x[k])
+            else:
+                tau = min(_AOA_C3 * TF, 1.0)
+                buoyancy = sign * _AOA_C2 * r2 * p.traits[i, 2] * d * tau * (leader[k] - x[k])
+            v[k] = w * v[k] + pull + buoyancy
+            x[k] += v[k]  # Eq. 49
+            if x[k] < p.lower[k]:
+                x[k], v[k] = p.lower[k], 0.0
+            elif x[k] > p.upper[k]:
+                x[k], v[k] = p.upper[k], 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Best:
+    """The best candidate told so far."""
+
+    position: FloatArray  # (n_dim,)
+    cost: float
+
+
+class Haoaroa:
+    """Ask/tell HAOAROA. `ask` gives candidates (n_pop, n_dim), `tell` takes their costs and, if known, gradients.
+
+    Parameters
+    ----------
+    lower, upper : (n_dim,)         bounds, finite, lower < upper.
+    generator : numpy Generator     the only source of chance.
+    initial : (m, n_dim) or None    first candidates (Eq. 43), clipped to the bounds; the rest are uniform in them.
+    step : float                    first length of the gradient step, in units of the candidates.
+    budget : int                    evaluations; the last iteration is the last one that fits.
+
+    Raises
+    ------
+    ValueError : bounds or shapes that do not fit, a cost that is NaN, or more iterations than the budget pays for.
+    """
+
+    def __init__(
+        self,
+        lower: FloatArray,
+        upper: FloatArray,
+        generator: np.random.Generator,
+        initial: FloatArray | None = None,
+        population: int = POPULATION,
+        budget: int = POPULATION * ITERATIONS,
+        step: float = 0.1,
+    ) -> None:
+        low, high = np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64)
+        if low.ndim != 1 or low.shape != high.shape or not (np.isfinite(low) & np.isfinite(high) & (low < high)).all():
+            raise ValueError("bounds: expected two finite vectors of one length with lower < upper")
+        if population < _GROUPS or budget < population:
+            raise ValueError(f"expected a population of at least {_GROUPS} and a budget that pays for it once")
+        n_dim = len(low)
+        positions = low + (high - low) * generator.random((population, n_dim))
+        if initial is not None:
+            rows = np.asarray(initial, dtype=np.float64)[:population]
+            positions[: len(rows)] = np.clip(rows, low, high)
+        self.iteration, self.iterations = 0, budget // population
+        self.evaluations = 0
+        self._generator = generator
+        self.population = Population(
+            positions=positions,
+            velocities=np.zeros((population, n_dim)),
+            gradients=np.zeros((population, n_dim)),
+            costs=np.full(population, np.inf),
+            previous=np.full(population, np.inf),
+            best_positions=positions.copy(),
+            best_costs=np.full(population, np.inf),
+            steps=np.full(population, float(step) / 1.2),  # the first evaluation improves on infinity
+            traits=0.1 + 0.9 * generator.random((population, 3)),
+            lower=low,
+            upper=high,
+        )
+
+    @property
+    def done(self) -> bool:
+        """Whether the budget is spent."""
+        return self.iteration >= self.iterations
+
+    def uniforms(self, count: int) -> FloatArray:
+        """Random numbers of the next `count` iterations, (count, n_pop, draws); they are then used up."""
+        n_pop, n_dim = self.population.positions.shape
+        return self._generator.random((count, n_pop, draws(n_dim)))
+
+    def advance(self, iterations: int) -> None:
+        """Count iterations that a fused loop has made on `population`."""
+        self.iteration += iterations
+        self.evaluations += iterations * len(self.population.costs)
+
+    def ask(self) -> FloatArray:
+        """The candidates to evaluate (n_pop, n_dim), a copy."""
+        return self.population.positions.copy()
+
+    def tell(self, costs: FloatArray, gradients: FloatArray | None = None) -> None:
+        """Take the costs (n_pop,) and gradients (n_pop, n_dim) of the candidates asked for, and move on."""
+        p = self.population
+        values = np.asarray(costs, dtype=np.float64)
+        if values.shape != p.costs.shape or np.isnan(values).any():
+            raise ValueError(f"costs: expected {p.costs.shape} numbers, found {values.shape} or NaN")
+        if self.done:
+            raise ValueError(f"the budget of {self.iterations} iterations is spent")
+        p.costs[:] = values
+        p.gradients[:] = 0.0 if gradients is None else gradients
+        remember(p)
+        move(p, self.iteration + 1, self.iterations, self.uniforms(1)[0], gradients is not None)
+        self.advance(1)
+
+    @property
+    def best(self) -> Best:
+        """The best candidate so far; its cost is inf before the first `tell`."""
+        i = int(np.argmin(self.population.best_costs))
+        return Best(self.population.best_positions[i].copy(), float(self.population.best_costs[i]))

@@ -1,0 +1,92 @@
+"""First guesses: a fan of bows from start to goal, so that the search begins on every side of the obstacles.
+
+The paper perturbs each control point independently (Eq. 43: P_init + epsilon). Such curves all pass the obstacles on
+the same side; on an L or a U no method then finds the way round. Here the perturbations are correlated along the
+curve: bows A sin(pi s) in the plane frame of the line (e1 along it, e2 level, e3 the third), one side after the
+other, amplitudes in even steps up to the room there is; then random mixtures of the first sine modes, which are the
+soft modes of the stretch.
+"""
+
+import numpy as np
+
+from planner.bspline import FloatArray
+from planner.cost import FIXED
+
+SIDE = 6
+"""Bows on each level side."""
+MODES = 3
+
+
+def plane_frame(start: FloatArray, goal: FloatArray) -> FloatArray:
+    """Rows e1, e2, e3 (3, 3): along the line, level and square to it, and square to both (up or down)."""
+    along = goal - start
+    length = float(np.linalg.norm(along))
+    e1 = along / length if length > 0.0 else np.array([1.0, 0.0, 0.0])
+    level = np.array([-e1[1], e1[0], 0.0])
+    size = float(np.linalg.norm(level))
+    e2 = level / size if size > 1e-6 else np.array([0.0, 1.0, 0.0])
+    e3 = np.cross(e1, e2)
+    return np.array([e1, e2, e3 / np.linalg.norm(e3)])
+
+
+def _room(point: FloatArray, direction: FloatArray, lower: FloatArray, upper: FloatArray) -> float:
+    """How far one can go from a point inside a box along a unit direction."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ways = np.where(direction > 0, (upper - point) / direction, (lower - point) / direction)
+    return max(float(np.min(ways[np.abs(direction) > 1e-9])), 0.0)
+
+
+def fan(
+    start: FloatArray,
+    goal: FloatArray,
+    lower: FloatArray,
+    upper: FloatArray,
+    n: int,
+    count: int,
+    generator: np.random.Generator,
+) -> FloatArray:
+    """Free control points of `count` seeds, from the straight line outward.
+
+    Parameters
+    ----------
+    start, goal : (3,)      [m].
+    lower, upper : (3,)     where control points may be: the map less the radius [m].
+    n : int                 control points of the whole spline.
+    count : int             seeds wanted; beyond the bows they are random.
+
+    Returns
+    -------
+    (count, 3 (n - 6))      [m].
+    """
+    f = n - 2 * FIXED
+    s = np.arange(1, f + 1) / (f + 1)
+    line = start + s[:, None] * (goal - start)
+    _, e2, e3 = plane_frame(start, goal)
+    middle = (start + goal) / 2
+    longest = max(0.75 * float(np.linalg.norm(goal - start)), 1.0)
+    sides = [(e, min(_room(middle, e, lower, upper), longest)) for e in (e2, -e2, e3, -e3)]
+    offsets = [np.zeros(3)]
+    for k in range(SIDE):
+        offsets += [sides[j][0] * sides[j][1] * (k + 1) / SIDE for j in (0, 1)]
+        if k in (SIDE // 2 - 1, SIDE - 1):
+            offsets += [sides[j][0] * sides[j][1] * (k + 1) / SIDE for j in (2, 3)]
+    bow = np.sin(np.pi * s)
+    seeds = [line + bow[:, None] * offset for offset in offsets[:count]]
+    modes = np.sin(np.pi * np.arange(1, MODES + 1)[:, None] * s)  # (MODES, f)
+    fall = 1.0 / np.arange(1, MODES + 1)
+    while len(seeds) < count:
+        level, upward = generator.standard_normal((2, MODES)) * fall
+        seeds.append(
+            line
+            + 0.5 * max(sides[0][1], sides[1][1]) * np.outer(level @ modes, e2)
+            + 0.5 * max(sides[2][1], sides[3][1]) * np.outer(upward @ modes, e3)
+        )
+    return np.clip(np.array(seeds), lower, upper).reshape(count, 3 * f)
+
+
+def along_path(path: FloatArray, n: int) -> FloatArray:
+    """Free control points (3 (n - 6),) spaced evenly along a polyline (m, 3) [m]."""
+    f = n - 2 * FIXED
+    s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    where = np.arange(1, f + 1) / (f + 1) * s[-1]
+    return np.stack([np.interp(where, s, path[:, a]) for a in range(3)], axis=1).ravel()
