@@ -11,6 +11,7 @@ No clock, no socket, no randomness, no logging: the same inputs at the same `now
 a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing.
 """
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -161,7 +162,8 @@ class Companion:
             self._plan_refusal = f"{leg}: {ready.error or 'not certified'}: {ready.text}"
             return
         self.itinerary.take(ready.request_id, ready.trajectory)
-        duration, how = ready.trajectory.duration, f"{ready.method}, {ready.cpu_ms:.1f} ms"
+        duration = ready.trajectory.duration
+        how = ready.method + ("" if math.isnan(ready.cpu_ms) else f", {ready.cpu_ms:.1f} ms")
         text = f"{leg} planned: {ready.length:.2f} m in {duration:.2f} s, clear by {ready.clearance:.2f} m ({how})"
         out.append(Note(Level.INFO, text))
 

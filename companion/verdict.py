@@ -117,7 +117,8 @@ class FlightMeter:
             ned = local_ned(rows[:, 1], rows[:, 2], rows[:, 3])
             assert self._engaged_us is not None
             standing = ned[rows[:, 0] <= self._engaged_us]
-            return ned - (standing[-1] if len(standing) else ned[0]) + start
+            moved: FloatArray = ned - (standing[-1] if len(standing) else ned[0]) + start
+            return moved
 
         return self._track(self._truths, to_mission_frame)
 

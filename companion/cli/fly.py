@@ -4,7 +4,7 @@ import re
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime
 from importlib import resources
@@ -18,7 +18,7 @@ from companion.core import VEHICLE_LINK, Companion, CompanionConfig
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
 from companion.drivers.recording import RecordingTap, header, total
-from companion.itinerary import Itinerary
+from companion.drivers.tick import Tap
 from companion.mission import Mission, parse_mission, read_mission_file
 from companion.seam import OperatorCommand
 from companion.verdict import FlightMeter, judge
@@ -134,17 +134,17 @@ def _fly(
         for name, url in zip(config.ground_links, outs, strict=True):
             links[name] = stack.enter_context(UdpLink(name, Endpoint.parse(url)))
         stack.enter_context(operator.listening())
-        rehearsal = next(iter(Itinerary(mission, config.seed).wanted()), None)
-        planning = WorkerPlanning(mission.planner_world(), rehearsal)
+        planning = WorkerPlanning(mission.planner_world())
         stack.callback(planning.close)
         with show.working(out, "compiling kernels (only the first time)"):
-            _await_kernels(planning, operator.stop)
+            while not planning.warmed.done() and not operator.stop():
+                time.sleep(0.05)
         endpoints = {name: str(link.endpoint) for name, link in links.items()}
         recorder = stack.enter_context(
             Recorder(file, threaded=True, **header(companion, data, endpoints=endpoints, clock={"epoch": "unix"}))
         )
         progress = stack.enter_context(show.ProgressLine(companion, meter, out))
-        taps = [meter, RecordingTap(companion, recorder), progress]
+        taps: list[Tap] = [meter, RecordingTap(companion, recorder), progress]
         pace = fly_realtime(
             companion, links, planning, taps, operator=operator, stop=lambda: operator.stop() or _ended(watch)
         )
@@ -171,18 +171,6 @@ def _fly(
         rows = [("messages recorded", f"{total(counters)}"), ("losses", shown), ("recording", str(file))]
         show.print_verdict(verdict, {**show.expectations(mission), "rows": rows}, Console())
     return 0 if verdict.ok else 1
-
-
-def _await_kernels(planning: WorkerPlanning, stop: Callable[[], bool]) -> None:
-    """Wait until the worker has planned once, and evaluate its trajectory here: the flight loop must not compile."""
-    if planning.rehearsed is None:
-        return
-    while not planning.rehearsed.done() and not stop():
-        time.sleep(0.05)
-    if planning.rehearsed.done():
-        trajectory = planning.rehearsed.result().trajectory
-        if trajectory is not None:
-            trajectory.state(0.0)
 
 
 def _ended(process: "subprocess.Popen[bytes] | None") -> bool:

@@ -26,14 +26,14 @@ def console() -> Console:
 
 
 @contextmanager
-def working(out: Console, what: str) -> Iterator[None]:
+def working(out: Console, what: str) -> Iterator[Status | None]:
     """A spinner on a terminal; one plain line elsewhere."""
     if out.is_terminal:
-        with out.status(what):
-            yield
+        with out.status(what) as status:
+            yield status
     else:
         out.print(what)
-        yield
+        yield None
 
 
 class ProgressLine:
@@ -57,9 +57,7 @@ class ProgressLine:
         for output in tick.outputs:
             if isinstance(output, Note):
                 time_s = f"{self._meter.duration_s:7.2f} s"
-                self._out.print(
-                    f"[dim]{time_s}[/dim]  [{STYLES[output.level]}]{_plain(output.text)}[/]", soft_wrap=True
-                )
+                self._out.print(f"[dim]{time_s}[/dim]  [{STYLES[output.level]}]{plain(output.text)}[/]", soft_wrap=True)
         if self._status is not None and tick.index % self._every == 0:
             self._status.update(self.line())
 
@@ -77,7 +75,7 @@ class ProgressLine:
         return "  ".join(parts)
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """Text from a peer, with nothing that the terminal or the markup would obey."""
     return "".join(c if c.isprintable() else "?" for c in text).replace("[", "\\[")
 
@@ -103,7 +101,7 @@ def print_verdict(verdict: Verdict, extra: Mapping[str, Any], out: Console) -> N
         table.add_row(*row)
     out.print(table)
     for problem in ([verdict.failure] if verdict.failure else []) + verdict.failed_expectations:
-        out.print(f"[bold red]✗[/bold red] {_plain(problem)}", soft_wrap=True)
+        out.print(f"[bold red]✗[/bold red] {plain(problem)}", soft_wrap=True)
 
 
 def _error_rows(verdict: Verdict, extra: Mapping[str, Any]) -> list[tuple[str, str, str]]:

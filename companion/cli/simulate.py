@@ -10,13 +10,15 @@ from companion.cli import show
 from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import fly_lockstep
-from companion.drivers.planning import InlinePlanning, answer
-from companion.drivers.recording import RecordingTap, header, total
+from companion.drivers.planning import InlinePlanning
+from companion.drivers.recording import RecordingTap, compared, header, total
+from companion.drivers.tick import Tap
 from companion.mission import parse_mission, read_mission_file
 from companion.verdict import FlightMeter, judge
 from fakevehicle.vehicle import Vehicle
-from logs.compare import OutputHash
+from logs.compare import Output, outputs_sha256
 from logs.recorder import Recorder
+from planner import warm_up
 
 LIMIT_S = 3600.0
 """Simulated time after which a flight that does not end is ended."""
@@ -31,30 +33,30 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
     planning = InlinePlanning(mission.planner_world())
     with show.working(out, "compiling kernels (only the first time)"):
         build_vehicle(mission, seed).step(Vehicle.TICK_US, [])  # one step of a twin, thrown away
-        for wanted in companion.itinerary.wanted()[:1]:
-            answer(mission.planner_world(), wanted)
+        warm_up()
     vehicle = build_vehicle(mission, seed)
     meter = FlightMeter(companion)
-    outputs = OutputHash()
+    outputs: list[Output] = []
     with tempfile.TemporaryDirectory() as scratch:
         file = record if record is not None else Path(scratch) / "simulate.mcap"
         with (
             Recorder(file, threaded=False, **header(companion, data)) as recorder,
             show.ProgressLine(companion, meter, out) as progress,
         ):
-            taps = [meter, RecordingTap(companion, recorder), outputs, progress]
+            keep: Tap = lambda tick: outputs.extend(compared(tick, companion))  # noqa: E731  a tap in one line
+            taps: list[Tap] = [meter, RecordingTap(companion, recorder), keep, progress]
             wall, cpu = time.perf_counter(), time.process_time()
             end_us = fly_lockstep(companion, vehicle, LINK, planning, taps, limit_s=LIMIT_S)
             wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     verdict = judge(companion, meter)
-    simulated_s = end_us / 1e6
+    simulated_s, sha256 = end_us / 1e6, outputs_sha256(outputs)
     result = {
         **show.verdict_json(verdict),
         "recording": None if record is None else str(record),
         "messages_recorded": total(recorder.counters),
         "speedup": simulated_s / wall,
         "cpu_ms_per_sim_s": 1e3 * cpu / simulated_s,
-        "outputs_sha256": outputs.hexdigest(),
+        "outputs_sha256": sha256,
     }
     if as_json:
         show.print_json(result)
@@ -62,7 +64,7 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
         rows = [
             ("messages recorded", f"{total(recorder.counters)}"),
             ("speed", f"{result['speedup']:.0f} x real time, {result['cpu_ms_per_sim_s']:.1f} ms CPU a second"),
-            ("outputs sha256", outputs.hexdigest()[:16] + "…"),
+            ("outputs sha256", sha256[:16] + "…"),
             ("recording", "-" if record is None else str(record)),
         ]
         show.print_verdict(verdict, {**show.expectations(mission), "rows": rows}, Console())

@@ -3,11 +3,12 @@
 import os
 import signal
 from concurrent.futures import Future, ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from typing import Protocol
 
 from companion.seam import PlanReady, PlanWanted
-from planner import PlannerError, World, plan
+from planner import PlannerError, World, plan, warm_up
 
 
 class Planning(Protocol):
@@ -55,7 +56,8 @@ class InlinePlanning:
         self._ready: list[PlanReady] = []
 
     def submit(self, wanted: PlanWanted) -> None:
-        self._ready.append(answer(self._world, wanted))
+        # What planning cost differs from run to run; a lockstep flight is the same to the byte, so it is not told.
+        self._ready.append(replace(answer(self._world, wanted), cpu_ms=float("nan")))
 
     def ready(self) -> list[PlanReady]:
         ready, self._ready = self._ready, []
@@ -85,14 +87,13 @@ class WorkerPlanning:
 
     Parameters
     ----------
-    world : handed to the worker once.
-    rehearsal : a request planned beforehand and thrown away, so that kernels are compiled before they are needed.
+    world : handed to the worker once. The worker compiles its kernels first (`warmed`).
     """
 
-    def __init__(self, world: World, rehearsal: PlanWanted | None = None) -> None:
+    def __init__(self, world: World) -> None:
         self._pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=_enter_worker, initargs=(world,))
         self._pending: list[tuple[PlanWanted, Future[PlanReady]]] = []
-        self.rehearsed = self._pool.submit(_answer_in_worker, rehearsal) if rehearsal is not None else None
+        self.warmed: Future[None] = self._pool.submit(warm_up)  # done when its kernels are compiled
 
     def submit(self, wanted: PlanWanted) -> None:
         self._pending.append((wanted, self._pool.submit(_answer_in_worker, wanted)))

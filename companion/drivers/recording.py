@@ -6,7 +6,7 @@ arrival, what left with the moment it had left; both carry the tick's number (do
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,10 @@ from companion.core import Companion
 from companion.drivers.tick import Tick
 from companion.seam import Input, Note, OperatorCommand, Output, PlanReady, PlanWanted, Reference
 from logs import schema
-from logs.recorder import Attachment, Recorder, RecorderCounters
+from logs.compare import Output as Compared
+from logs.container import Attachment
+from logs.recorder import Recorder, RecorderCounters
+from logs.table import Entry, RecordedTick
 from planner import Trajectory
 from wire.datagram import Datagram
 
@@ -136,11 +139,18 @@ class RecordingTap:
         self._recorder.message(schema.TOPICS[type(record)], record, **at)
 
 
-@dataclass(frozen=True, slots=True)
-class RecordedTick:
-    """One tick as it was recorded: what went in, and what came out (datagrams and records)."""
+def compared(tick: Tick, companion: Companion) -> list[Compared]:
+    """A tick's outputs as two runs are compared by: datagrams by their link, records by their schema's name."""
+    phase = companion.phase.value
+    return [_compared(tick.index, o if isinstance(o, Datagram) else to_record(o, phase)) for o in tick.outputs]
 
-    index: int
-    now_us: int
-    inputs: list[Input]
-    outputs: list[Datagram | schema.Record]
+
+def recorded_outputs(row: RecordedTick) -> list[Compared]:
+    """The same of a tick read from a recording."""
+    return [_compared(row.index, entry) for _, entry in row.outputs]
+
+
+def _compared(index: int, entry: Entry) -> Compared:
+    if isinstance(entry, Datagram):
+        return Compared(index, entry.link, entry.data)
+    return Compared(index, schema.schema_name(type(entry)), schema.encode(entry))

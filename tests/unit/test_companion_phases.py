@@ -7,7 +7,7 @@ import pytest
 from companion.phases import OVER, TRANSITIONS, Event, Phase, after
 
 
-@pytest.mark.parametrize(("phase", "event"), itertools.product(Phase, Event))
+@pytest.mark.parametrize(("phase", "event"), list(itertools.product(Phase, Event)))
 def test_every_pair_of_phase_and_event_has_the_outcome_the_table_names_and_all_others_change_nothing(phase, event):
     expected = TRANSITIONS.get((phase, event), phase)
     assert after(phase, event) is expected

@@ -1,0 +1,68 @@
+"""`companion log ...`: looking into recordings."""
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from companion.cli import show
+from logs.info import RecordingInfo, info
+
+
+def show_info(path: Path, as_json: bool) -> int:
+    """What the recording at `path` holds; exit code 0 whether or not it was closed properly."""
+    found = info(path)
+    if as_json:
+        show.print_json(_json(found))
+    else:
+        _print(found, Console())
+    return 0
+
+
+def _json(found: RecordingInfo) -> dict[str, object]:
+    links = {
+        link.name: {
+            "rx_datagrams": link.rx_datagrams,
+            "rx_bytes": link.rx_bytes,
+            "tx_datagrams": link.tx_datagrams,
+            "tx_bytes": link.tx_bytes,
+        }
+        for link in found.links
+    }
+    topics = {t.topic: {"schema": t.schema, "count": t.count, "rate_hz": t.rate_hz} for t in found.topics}
+    return {
+        "ok": True,
+        "path": str(found.path),
+        "size_bytes": found.size_bytes,
+        "complete": found.complete,
+        "problem": found.problem,
+        "library": found.library,
+        "start_ns": found.start_ns,
+        "duration_s": found.duration_s,
+        "messages": found.messages,
+        "links": links,
+        "topics": topics,
+        "metadata": {name: dict(values) for name, values in found.metadata.items()},
+        "attachments": dict(found.attachments),
+    }
+
+
+def _print(found: RecordingInfo, out: Console) -> None:
+    state = "complete" if found.complete else f"[yellow]not complete: {found.problem}[/yellow]"
+    out.print(f"[bold]{found.path}[/bold]  {found.size_bytes / 1e6:.2f} MB, {found.duration_s:.2f} s, {state}")
+    out.print(f"{found.messages} messages, written by {found.library}")
+    for name, size in found.attachments.items():
+        out.print(f"attachment {name} ({size} bytes)")
+    links = Table(title="links", title_justify="left")
+    for column in ("link", "received", "bytes", "sent", "bytes"):
+        links.add_column(column, justify="left" if column == "link" else "right")
+    for link in found.links:
+        numbers = (link.rx_datagrams, link.rx_bytes, link.tx_datagrams, link.tx_bytes)
+        links.add_row(link.name, *map(str, numbers))
+    out.print(links)
+    topics = Table(title="topics", title_justify="left")
+    for column in ("topic", "schema", "messages", "Hz"):
+        topics.add_column(column, justify="left" if column in ("topic", "schema") else "right")
+    for topic in found.topics:
+        topics.add_row(topic.topic, topic.schema, str(topic.count), f"{topic.rate_hz:.1f}")
+    out.print(topics)

@@ -1,0 +1,73 @@
+"""A recording again: its inputs into a fresh core, tick by tick, and every output held against the recorded one."""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from companion.core import Companion, CompanionConfig
+from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, recorded_outputs, to_input
+from companion.drivers.tick import Tick
+from companion.errors import RerunError
+from companion.mission import parse_mission
+from logs.compare import Comparison, Output, compare
+from logs.reader import Recording
+from logs.table import ticks
+from wire.datagram import Datagram
+
+
+@dataclass(frozen=True, slots=True)
+class Rerun:
+    """The outcome: the companion as it ended, how far it got, and how the outputs compare."""
+
+    companion: Companion
+    ticks: int
+    simulated_s: float
+    comparison: Comparison
+
+
+def fresh_companion(recording: Recording) -> Companion:
+    """A companion set up as the recorded one was.
+
+    Raises
+    ------
+    RerunError : the recording has no mission or no configuration, or one that this version does not understand.
+    """
+    attachment = recording.attachments.get(MISSION_ATTACHMENT)
+    stored = recording.metadata.get(CONFIG_METADATA, {}).get("config")
+    if attachment is None or stored is None:
+        raise RerunError(f"{recording.path}: holds no mission and configuration: not a recording of a companion")
+    try:
+        values: dict[str, Any] = json.loads(stored)
+        config = CompanionConfig(**{**values, "ground_links": tuple(values.get("ground_links", ()))})
+    except (ValueError, TypeError) as error:
+        raise RerunError(f"{recording.path}: its configuration is not one of this version: {error}") from error
+    return Companion(parse_mission(attachment.data, f"{recording.path}: {MISSION_ATTACHMENT}"), config)
+
+
+def rerun(recording: Recording, progress: Callable[[Tick], None] = lambda tick: None) -> Rerun:
+    """Feed the recorded inputs to a fresh companion and compare.
+
+    Raises
+    ------
+    RerunError : not a recording of a companion.
+    RecordingError : ticks are missing or incomplete in the middle of the file.
+    """
+    companion = fresh_companion(recording)
+    recorded: list[Output] = []
+    produced: list[Output] = []
+    count, first_us, last_us = 0, 0, 0
+    for row in ticks(recording):
+        inputs = [(stamp // 1000, item) for stamp, item in ((s, _input(entry)) for s, entry in row.inputs) if item]
+        outputs = companion.step(row.now_us, [item for _, item in inputs])
+        tick = Tick(row.index, row.now_us, inputs, outputs, row.now_us)
+        produced.extend(compared(tick, companion))
+        recorded.extend(recorded_outputs(row))
+        progress(tick)
+        first_us = row.now_us if count == 0 else first_us
+        last_us, count = row.now_us, count + 1
+    return Rerun(companion, count, (last_us - first_us) / 1e6, compare(recorded, produced))
+
+
+def _input(entry: Any) -> Any:
+    return entry if isinstance(entry, Datagram) else to_input(entry)
