@@ -242,13 +242,13 @@ class Companion:
 
     def _flying(self, now_us: int, out: list[Output]) -> Event | None:
         if not self.telemetry.armed:
-            self.failure = f"the vehicle disarmed in step {self.itinerary.index} ({self.itinerary.name()})"
+            self.failure = f"the vehicle disarmed in step {self.itinerary.index} ({self.itinerary.step.kind})"
             return Event.DISARMED
         if not self.autopilot.in_control(self.telemetry):
             self.failure = f"the vehicle left {self.autopilot.offboard_mode}; it is not fought for"
             return Event.MODE_LOST
         if self.itinerary.advance(now_us):
-            out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.name()}"))
+            out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.step.kind}"))
         return Event.STEPS_DONE if self.itinerary.finished() else None
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:

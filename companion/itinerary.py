@@ -81,10 +81,6 @@ class Itinerary:
     def step(self) -> Step:
         return self.mission.steps[self.index]
 
-    def name(self) -> str:
-        """The current step in a word."""
-        return next(kind for kind in ("takeoff", "goto", "hold", "land") if getattr(self.step, kind) is not None)
-
     def begin(self, now_us: int) -> None:
         """Start walking: the takeoff begins after the motors have spooled up."""
         self._entered_us = now_us + round(SPOOL_UP_S * 1e6)

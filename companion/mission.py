@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from companion.errors import MissionError
 from companion.seam import Vector
@@ -156,6 +156,11 @@ class Step(_Model):
             raise ValueError("expected exactly one of takeoff, goto, hold, land")
         return self
 
+    @property
+    def kind(self) -> str:
+        """Which of the four it is."""
+        return next(name for name in ("takeoff", "goto", "hold", "land") if getattr(self, name) is not None)
+
 
 class Wind(_Model):
     """Velocity of the air over ground [m/s]."""
@@ -186,15 +191,16 @@ class Mission(_Model):
     wind: Wind = Wind()
     expect: Expect = Expect()
 
-    @model_validator(mode="after")
-    def _flyable_order(self) -> "Mission":
-        for i, step in enumerate(self.steps):
-            first, last = i == 0, i == len(self.steps) - 1
-            if (step.takeoff is not None) != first:
-                raise ValueError(f"steps.{i}: expected takeoff as the first step and only there")
-            if (step.land is not None) != last:
-                raise ValueError(f"steps.{i}: expected land as the last step and only there")
-        return self
+    @field_validator("steps")
+    @classmethod
+    def _flyable_order(cls, steps: list[Step]) -> list[Step]:
+        for i, step in enumerate(steps):
+            for kind, place, only in (("takeoff", "first", 0), ("land", "last", len(steps) - 1)):
+                if (step.kind == kind) != (i == only):
+                    raise ValueError(
+                        f"found {step.kind} as step {i}, expected {kind} as the {place} step and only there"
+                    )
+        return steps
 
     def start_m(self) -> Vector:
         """Where the vehicle stands, in the mission frame."""

@@ -67,7 +67,7 @@ class ProgressLine:
         parts = [companion.phase.value]
         if companion.phase is Phase.FLYING:
             here = companion.telemetry.position_n - companion.origin_n
-            parts.append(f"step {companion.itinerary.index} {companion.itinerary.name()}")
+            parts.append(f"step {companion.itinerary.index} {companion.itinerary.step.kind}")
             parts.append(f"{companion.itinerary.remaining(here):5.1f} m to go")
         if not math.isnan(meter.tracking_error_now):
             parts.append(f"error {meter.tracking_error_now:.2f} m")
