@@ -198,7 +198,7 @@ class Mission(_Model):
             for kind, place, only in (("takeoff", "first", 0), ("land", "last", len(steps) - 1)):
                 if (step.kind == kind) != (i == only):
                     raise ValueError(
-                        f"found {step.kind} as step {i}, expected {kind} as the {place} step and only there"
+                        f"found {step.kind} as step {i}, expected {kind} as the {place} and only there"
                     )
         return steps
 

@@ -58,8 +58,8 @@ def test_every_mission_that_ships_is_a_good_one(path):
         ("north: [0, 20]", "north: 20", 5, ["world.bounds.north", "pair [low, high]", "20"]),
         ("radius: 0.4", "radius: 0", 8, ["world.obstacles.1.cylinder.radius", "greater than 0"]),
         ("- land", "- hover", 13, ["steps.2", "'hover'"]),
-        ("- land", "- hold: {seconds: 1}", 10, ["land as the last step"]),
-        ("  - takeoff: {altitude: 1.5}\n", "", 10, ["takeoff as the first step"]),
+        ("- land", "- hold: {seconds: 1}", 10, ["steps: found hold as step 2, expected land as the last"]),
+        ("  - takeoff: {altitude: 1.5}\n", "", 10, ["steps: found goto as step 0, expected takeoff as the first"]),
         ("- sphere:", "- sphere: null\n      pyramid:", 10, ["world.obstacles.2.pyramid", "unknown key"]),
     ],
 )
