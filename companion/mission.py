@@ -315,21 +315,17 @@ def _shown(value: Any) -> str:
 
 
 def _line(node: yaml.Node | None, keys: list[Any]) -> int:
-    """Line of the deepest node that the key path reaches."""
+    """Line where the deepest node that the key path reaches is named."""
     line = 1
-    for key in [*keys, None]:
-        if node is None:
-            break
-        line = node.start_mark.line + 1
+    for key in keys:
         if isinstance(node, yaml.MappingNode):
             found = next(((k, v) for k, v in node.value if k.value == str(key)), None)
             if found is None:
                 break
             line, node = found[0].start_mark.line + 1, found[1]
-            if isinstance(node, yaml.ScalarNode):
-                break
         elif isinstance(node, yaml.SequenceNode) and isinstance(key, int) and key < len(node.value):
             node = node.value[key]
+            line = node.start_mark.line + 1
         else:
             break
     return line
