@@ -197,9 +197,7 @@ class Mission(_Model):
         for i, step in enumerate(steps):
             for kind, place, only in (("takeoff", "first", 0), ("land", "last", len(steps) - 1)):
                 if (step.kind == kind) != (i == only):
-                    raise ValueError(
-                        f"found {step.kind} as step {i}, expected {kind} as the {place} and only there"
-                    )
+                    raise ValueError(f"found {step.kind} as step {i}, expected {kind} as the {place} and only there")
         return steps
 
     def start_m(self) -> Vector:

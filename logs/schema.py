@@ -21,11 +21,15 @@ PACKAGE = "companion"
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One call of the core's step: its time [us], and how many inputs and outputs crossed the seam in it."""
+    """One call of the core's step: its time [us], how many inputs and outputs crossed the seam, and the inputs' digest.
+
+    The digest is `inputs_digest` of the tick's inputs; 0 where none was taken.
+    """
 
     now_us: int
     inputs: int
     outputs: int
+    inputs_crc32: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,8 @@ tick's inputs are its rx datagrams, `PlanReady` and `OperatorCommand` in file or
 `PlanWanted`, `Note` and `Reference` in file order; its `Tick` record gives `now_us` and how many there must be of each.
 """
 
-from collections.abc import Iterator
+import zlib
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from logs import schema
@@ -24,11 +25,13 @@ class RecordedTick:
     Attributes
     ----------
     index : of the tick; now_us : the time the core was given [us].
+    declared : its `Tick` record.
     inputs, outputs : (log time [ns], what), in the order of the seam.
     """
 
     index: int
     now_us: int
+    declared: schema.Tick | None = None
     inputs: list[tuple[int, Entry]] = field(default_factory=list)
     outputs: list[tuple[int, Entry]] = field(default_factory=list)
 
@@ -44,7 +47,6 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
         be looked at, but not run again.
     """
     row: RecordedTick | None = None
-    declared: schema.Tick | None = None
     expected = 0
     for message in recording.messages():
         entry = entry_of(message)
@@ -52,25 +54,39 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
             continue
         if row is None or message.tick != row.index:
             if row is not None:
-                yield _checked(recording, row, declared)
+                yield _checked(recording, row)
             if message.tick != expected:
                 raise RecordingError(recording.path, f"tick {message.tick} follows where tick {expected} should be")
-            row, declared = RecordedTick(message.tick, message.publish_time_ns // 1000), None
+            row = RecordedTick(message.tick, message.publish_time_ns // 1000)
             expected += 1
         if isinstance(entry, schema.Tick):
-            declared, row.now_us = entry, entry.now_us
+            row.declared, row.now_us = entry, entry.now_us
         elif is_input(message):
             row.inputs.append((message.log_time_ns, entry))
         else:
             row.outputs.append((message.log_time_ns, entry))
     if row is not None:
         try:
-            last = _checked(recording, row, declared)
+            last = _checked(recording, row)
         except RecordingError:
             if recording.complete:
                 raise
         else:
             yield last
+
+
+def inputs_digest(inputs: Iterable[Entry]) -> int:
+    """CRC-32 over a tick's inputs in order: link and bytes of a datagram, schema name and bytes of a record.
+
+    With it in every tick, a changed input is found even where it changes no output.
+    """
+    crc = 0
+    for entry in inputs:
+        if isinstance(entry, Datagram):
+            crc = zlib.crc32(entry.data, zlib.crc32(entry.link.encode(), crc))
+        else:
+            crc = zlib.crc32(schema.encode(entry), zlib.crc32(schema.schema_name(type(entry)).encode(), crc))
+    return crc
 
 
 def entry_of(message: RecordedMessage) -> Entry | None:
@@ -93,8 +109,9 @@ def is_input(message: RecordedMessage) -> bool:
     return channel.direction == "rx" or schema.kind_of(channel.schema) in schema.INPUTS
 
 
-def _checked(recording: Recording, row: RecordedTick, declared: schema.Tick | None) -> RecordedTick:
+def _checked(recording: Recording, row: RecordedTick) -> RecordedTick:
     """The row, if it holds all that its `Tick` record says."""
+    declared = row.declared
     if declared is None:
         raise RecordingError(recording.path, f"tick {row.index} has no {schema.schema_name(schema.Tick)} record")
     found, said = (len(row.inputs), len(row.outputs)), (declared.inputs, declared.outputs)

@@ -10,6 +10,7 @@ from companion.drivers.planning import answer
 from companion.itinerary import Itinerary
 from companion.mission import load_mission
 from companion.seam import PlanReady
+from planner import warm_up
 
 
 def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int:
@@ -19,6 +20,7 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
     world = mission.planner_world()
     requests = Itinerary(mission, seed).wanted()
     with show.working(out, "planning (kernels are compiled the first time)"):
+        warm_up()
         answers = [answer(world, wanted) for wanted in requests]
     ok = all(a.certified for a in answers)
     if as_json:

@@ -11,12 +11,11 @@ from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
-from companion.drivers.recording import RecordingTap, compared, header, total
+from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.mission import parse_mission, read_mission_file
 from companion.verdict import FlightMeter, judge
 from fakevehicle.vehicle import Vehicle
-from logs.compare import Output, outputs_sha256
 from logs.recorder import Recorder
 from planner import warm_up
 
@@ -36,20 +35,19 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
         warm_up()
     vehicle = build_vehicle(mission, seed)
     meter = FlightMeter(companion)
-    outputs: list[Output] = []
     with tempfile.TemporaryDirectory() as scratch:
         file = record if record is not None else Path(scratch) / "simulate.mcap"
         with (
             Recorder(file, threaded=False, **header(companion, data)) as recorder,
             show.ProgressLine(companion, meter, out) as progress,
         ):
-            keep: Tap = lambda tick: outputs.extend(compared(tick, companion))  # noqa: E731  a tap in one line
-            taps: list[Tap] = [meter, RecordingTap(companion, recorder), keep, progress]
+            recording = RecordingTap(companion, recorder)
+            taps: list[Tap] = [meter, recording, progress]
             wall, cpu = time.perf_counter(), time.process_time()
             end_us = fly_lockstep(companion, vehicle, LINK, planning, taps, limit_s=LIMIT_S)
             wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     verdict = judge(companion, meter)
-    simulated_s, sha256 = end_us / 1e6, outputs_sha256(outputs)
+    simulated_s, sha256 = end_us / 1e6, recording.outputs.hexdigest()
     result = {
         **show.verdict_json(verdict),
         "recording": None if record is None else str(record),

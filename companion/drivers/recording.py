@@ -5,7 +5,7 @@ arrival, what left with the moment it had left; both carry the tick's number (do
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -16,9 +16,10 @@ from companion.drivers.tick import Tick
 from companion.seam import Input, Note, OperatorCommand, Output, PlanReady, PlanWanted, Reference
 from logs import schema
 from logs.compare import Output as Compared
-from logs.container import Attachment
+from logs.compare import OutputHash
+from logs.container import Attachment, Direction
 from logs.recorder import Recorder, RecorderCounters
-from logs.table import Entry, RecordedTick
+from logs.table import Entry, inputs_digest
 from planner import Trajectory
 from wire.datagram import Datagram
 
@@ -112,45 +113,47 @@ def total(counters: RecorderCounters) -> int:
 
 
 class RecordingTap:
-    """Writes every tick to a recorder; outputs are written as they left, after the inputs that caused them."""
+    """Writes every tick to a recorder: inputs, the tick itself, outputs.
+
+    Attributes
+    ----------
+    outputs : hash of all outputs so far.
+    """
 
     def __init__(self, companion: Companion, recorder: Recorder) -> None:
         self._companion, self._recorder = companion, recorder
+        self.outputs = OutputHash()
 
     def __call__(self, tick: Tick) -> None:
-        recorder, phase = self._recorder, self._companion.phase.value
-        for received_us, item in tick.inputs:
-            at: dict[str, int] = {"log_time_ns": received_us * 1000, "now_us": tick.now_us, "tick": tick.index}
-            if isinstance(item, Datagram):
-                recorder.datagram(item.link, "rx", item.data, peer=item.peer, **at)
-            else:
-                self._write(item, phase, at)
-        at = {"log_time_ns": tick.sent_us * 1000, "now_us": tick.now_us, "tick": tick.index}
-        counts = schema.Tick(tick.now_us, len(tick.inputs), len(tick.outputs))
-        recorder.message(schema.TOPICS[schema.Tick], counts, **at)
-        for output in tick.outputs:
-            if isinstance(output, Datagram):
-                recorder.datagram(output.link, "tx", output.data, peer=output.peer, **at)
-            else:
-                self._write(output, phase, at)
+        inputs, ticked, outputs = entries(tick, self._companion)
+        for (received_us, _), entry in zip(tick.inputs, inputs, strict=True):
+            self._write(tick, "rx", received_us, entry)
+        self._write(tick, "tx", tick.sent_us, ticked)
+        for entry, output in zip(outputs, compared(tick.index, outputs), strict=True):
+            self._write(tick, "tx", tick.sent_us, entry)
+            self.outputs.add(output)
 
-    def _write(self, item: Input | Output, phase: str, at: Mapping[str, int]) -> None:
-        record = to_record(item, phase)
-        self._recorder.message(schema.TOPICS[type(record)], record, **at)
+    def _write(self, tick: Tick, direction: Direction, stamp_us: int, entry: Entry) -> None:
+        at: dict[str, int] = {"log_time_ns": stamp_us * 1000, "now_us": tick.now_us, "tick": tick.index}
+        if isinstance(entry, Datagram):
+            self._recorder.datagram(entry.link, direction, entry.data, peer=entry.peer, **at)
+        else:
+            self._recorder.message(schema.TOPICS[type(entry)], entry, **at)
 
 
-def compared(tick: Tick, companion: Companion) -> list[Compared]:
-    """A tick's outputs as two runs are compared by: datagrams by their link, records by their schema's name."""
+def entries(tick: Tick, companion: Companion) -> tuple[list[Entry], schema.Tick, list[Entry]]:
+    """A tick as a recording keeps it: its inputs, its own record, its outputs."""
     phase = companion.phase.value
-    return [_compared(tick.index, o if isinstance(o, Datagram) else to_record(o, phase)) for o in tick.outputs]
+    inputs = [item if isinstance(item, Datagram) else to_record(item, phase) for _, item in tick.inputs]
+    outputs = [item if isinstance(item, Datagram) else to_record(item, phase) for item in tick.outputs]
+    return inputs, schema.Tick(tick.now_us, len(inputs), len(outputs), inputs_digest(inputs)), outputs
 
 
-def recorded_outputs(row: RecordedTick) -> list[Compared]:
-    """The same of a tick read from a recording."""
-    return [_compared(row.index, entry) for _, entry in row.outputs]
-
-
-def _compared(index: int, entry: Entry) -> Compared:
-    if isinstance(entry, Datagram):
-        return Compared(index, entry.link, entry.data)
-    return Compared(index, schema.schema_name(type(entry)), schema.encode(entry))
+def compared(index: int, outputs: Sequence[Entry]) -> list[Compared]:
+    """A tick's outputs as two runs are compared by: datagrams by their link, records by their schema's name."""
+    return [
+        Compared(index, entry.link, entry.data)
+        if isinstance(entry, Datagram)
+        else Compared(index, schema.schema_name(type(entry)), schema.encode(entry))
+        for entry in outputs
+    ]

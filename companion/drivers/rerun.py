@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from companion.core import Companion, CompanionConfig
-from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, recorded_outputs, to_input
+from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, to_input
 from companion.drivers.tick import Tick
 from companion.errors import RerunError
 from companion.mission import parse_mission
@@ -61,8 +61,10 @@ def rerun(recording: Recording, progress: Callable[[Tick], None] = lambda tick: 
         inputs = [(stamp // 1000, item) for stamp, item in ((s, _input(entry)) for s, entry in row.inputs) if item]
         outputs = companion.step(row.now_us, [item for _, item in inputs])
         tick = Tick(row.index, row.now_us, inputs, outputs, row.now_us)
-        produced.extend(compared(tick, companion))
-        recorded.extend(recorded_outputs(row))
+        assert row.declared is not None  # `ticks` yields no row without it
+        recorded.extend(compared(row.index, [row.declared, *(entry for _, entry in row.outputs)]))
+        _, ticked, out = entries(tick, companion)
+        produced.extend(compared(row.index, [ticked, *out]))
         progress(tick)
         first_us = row.now_us if count == 0 else first_us
         last_us, count = row.now_us, count + 1
