@@ -1,0 +1,60 @@
+"""Wire replay: what the vehicle sent, with its own spacing, and nothing else."""
+
+from pathlib import Path
+
+import pytest
+from logs_traffic import captured, heartbeat, record_captured, sent_by_ground
+
+from logs import Recording, RecordingError
+from logs.recorder import Recorder
+from logs.wire_replay import paced, vehicle_link, vehicle_traffic
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Recording:
+    path = tmp_path_factory.mktemp("recording") / "flight.mcap"
+    with Recorder(path, metadata={}, threaded=False) as recorder:
+        recorder.datagram("gcs", "rx", heartbeat(255, 190, 8), log_time_ns=0, now_us=0, tick=0)
+        record_captured(recorder)
+    return Recording.open(path)
+
+
+@pytest.mark.parametrize("rate", [1.0, 4.0, 0.5])
+def test_the_recorded_spacing_is_kept_divided_by_the_rate(recording: Recording, rate: float) -> None:
+    vehicle = [(time_us, packet) for time_us, packet in captured() if not sent_by_ground(packet)]
+    start_us = vehicle[0][0]
+    due = list(paced(vehicle_traffic(recording, "autopilot"), rate))
+    assert [item.data for item in due] == [packet for _, packet in vehicle]
+    assert [item.due_s for item in due] == pytest.approx([(time - start_us) / 1e6 / rate for time, _ in vehicle])
+    assert due[0].due_s == 0.0
+
+
+def test_what_was_sent_to_the_vehicle_is_never_replayed(recording: Recording) -> None:
+    assert not any(sent_by_ground(item.data) for item in paced(vehicle_traffic(recording, "autopilot")))
+
+
+def test_the_vehicles_link_is_the_one_an_autopilot_was_heard_on(recording: Recording) -> None:
+    assert vehicle_link(recording) == "autopilot"
+
+
+def test_a_recording_without_an_autopilot_is_one_line(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    with Recorder(path, metadata={}, threaded=False) as recorder:
+        recorder.datagram("gcs", "rx", heartbeat(255, 190, 8), log_time_ns=0, now_us=0, tick=0)
+    with pytest.raises(RecordingError, match=r"no autopilot was heard on any link \(links: gcs\)"):
+        vehicle_link(Recording.open(path))
+
+
+def test_stamps_that_run_backwards_do_not_send_into_the_past(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    with Recorder(path, metadata={}, threaded=False) as recorder:
+        for tick, stamp in enumerate((1_000, 5_000, 3_000, 6_000)):
+            recorder.datagram("autopilot", "rx", heartbeat(), log_time_ns=stamp, now_us=tick, tick=tick)
+    due = [item.due_s for item in paced(vehicle_traffic(Recording.open(path), "autopilot"))]
+    assert due == pytest.approx([0.0, 4e-6, 4e-6, 5e-6])
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, float("inf"), float("nan")])
+def test_a_rate_that_is_no_rate_is_refused(rate: float) -> None:
+    with pytest.raises(ValueError, match="expected a positive number"):
+        paced([], rate)
