@@ -6,6 +6,7 @@ import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
@@ -148,6 +149,7 @@ def _fly(
         pace = fly_realtime(
             companion, links, planning, taps, operator=operator, stop=lambda: operator.stop() or _ended(watch)
         )
+        recorder.metadata("sockets", {k: str(v) for name, link in links.items() for k, v in _socket(name, link)})
     if not companion.over:
         companion.failure = companion.failure or _why_stopped(watch)
     verdict = judge(companion, meter)
@@ -171,6 +173,11 @@ def _fly(
         rows = [("messages recorded", f"{total(counters)}"), ("losses", shown), ("recording", str(file))]
         show.print_verdict(verdict, {**show.expectations(mission), "rows": rows}, Console())
     return 0 if verdict.ok else 1
+
+
+def _socket(name: str, link: UdpLink) -> list[tuple[str, int]]:
+    """A link's own counters, for the recording."""
+    return [(f"{name}.{key}", value) for key, value in asdict(link.counters).items()]
 
 
 def _ended(process: "subprocess.Popen[bytes] | None") -> bool:

@@ -1,15 +1,19 @@
 """A recording is what the companion would do again, bit for bit; and a changed byte is found."""
 
 import hashlib
+import json
+import re
 from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
+from mcap.writer import Writer
 from mcap_protobuf.decoder import DecoderFactory
 
 from companion.cli.rerun import rerun_log
 from companion.cli.simulate import simulate_mission
 from companion.drivers.rerun import rerun
+from companion.errors import RerunError
 from logs.reader import Recording
 
 
@@ -51,3 +55,91 @@ def test_the_plain_mcap_reader_and_its_protobuf_decoder_open_the_recording(recor
     assert {"/mavlink/1/1/ATTITUDE", "/mavlink/1/191/SET_POSITION_TARGET_LOCAL_NED"} <= decoded.keys()
     assert decoded["/companion/plan_ready"].certified
     assert sum(summary.statistics.channel_message_counts.values()) == summary.statistics.message_count
+
+
+def rewritten(source: Path, target: Path, change) -> None:
+    """The recording written again by the plain library, one message's bytes changed: a file without a torn checksum."""
+    with source.open("rb") as old, target.open("wb") as new:
+        reader, writer = make_reader(old), Writer(new)
+        writer.start()
+        summary = reader.get_summary()
+        schemas = {0: 0} | {i: writer.register_schema(s.name, s.encoding, s.data) for i, s in summary.schemas.items()}
+        channels = {
+            i: writer.register_channel(c.topic, c.message_encoding, schemas[c.schema_id], c.metadata)
+            for i, c in summary.channels.items()
+        }
+        for attachment in reader.iter_attachments():
+            writer.add_attachment(0, 0, attachment.name, attachment.media_type, attachment.data)
+        for metadata in reader.iter_metadata():
+            writer.add_metadata(metadata.name, metadata.metadata)
+        for _, channel, message in reader.iter_messages(log_time_order=False):
+            data = change(channel.topic, message)
+            writer.add_message(channels[channel.id], message.log_time, data, message.publish_time, message.sequence)
+        writer.finish()
+
+
+def flip(topic: str, tick: int, byte: int):
+    """Flip one bit of the first message of a topic at or after a tick."""
+    done = []
+
+    def change(found: str, message) -> bytes:
+        if found != topic or message.sequence < tick or done:
+            return message.data
+        done.append(message)
+        return bytes(b ^ (1 if i == byte else 0) for i, b in enumerate(message.data))
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("topic", "tick", "byte"),
+    [
+        ("/mavlink/raw/autopilot/rx", 0, 12),  # any telemetry before the flight
+        ("/mavlink/raw/autopilot/rx", 700, 0),  # the start byte of a packet in flight
+        ("/mavlink/raw/autopilot/rx", 1000, 20),
+        ("/companion/plan_ready", 0, 60),  # inside a control point
+    ],
+)
+def test_one_flipped_byte_of_an_input_makes_the_rerun_fail_and_name_the_first_difference(
+    recording, tmp_path, capsys, topic, tick, byte
+):
+    target = tmp_path / "flipped.mcap"
+    rewritten(recording, target, flip(topic, tick, byte))
+    assert rerun_log(target, as_json=True) == 3
+    result = json.loads(capsys.readouterr().out)
+    assert not result["ok"]
+    first = result["first_difference"]
+    found = int(re.match(r"tick (\d+), companion\.Tick: Tick\.inputs_crc32 recorded", first).group(1))
+    assert found >= tick
+
+
+def test_a_rewritten_recording_without_a_change_still_passes(recording, tmp_path):
+    target = tmp_path / "same.mcap"
+    rewritten(recording, target, lambda topic, message: message.data)
+    assert rerun_log(target, as_json=False) == 0
+
+
+def test_a_byte_flipped_in_the_file_itself_is_a_failed_verification_too(recording, tmp_path, capsys):
+    data = bytearray(recording.read_bytes())
+    data[len(data) // 2] ^= 1
+    target = tmp_path / "torn.mcap"
+    target.write_bytes(data)
+    assert rerun_log(target, as_json=True) == 3
+    assert "damaged at byte" in json.loads(capsys.readouterr().out)["problem"]
+
+
+def test_a_changed_output_is_named_by_message_and_field(recording, tmp_path, capsys):
+    target = tmp_path / "output.mcap"
+    rewritten(recording, target, flip("/companion/reference", 800, 30))
+    assert rerun_log(target, as_json=True) == 3
+    assert "companion.Reference: Reference." in json.loads(capsys.readouterr().out)["first_difference"]
+
+
+def test_a_file_that_is_no_recording_of_a_companion_is_one_line(tmp_path):
+    target = tmp_path / "other.mcap"
+    with target.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.finish()
+    with pytest.raises(RerunError, match="no mission and configuration"):
+        rerun_log(target, as_json=False)

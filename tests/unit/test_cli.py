@@ -1,0 +1,58 @@
+"""Bad input gets one clear line and a non-zero exit code; usage errors exit 2; JSON is one object."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+
+def companion(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "companion", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (["plan", "nowhere.yaml"], 1, "nowhere.yaml: cannot be read: No such file or directory"),
+        (["simulate", "pyproject.toml"], 1, "pyproject.toml: line"),
+        (["rerun", "nowhere.mcap"], 1, "nowhere.mcap: cannot read the file: No such file or directory"),
+        (["rerun", "pyproject.toml"], 1, "pyproject.toml: not an MCAP file"),
+        (["log", "info", "README.md"], 1, "README.md: not an MCAP file"),
+        (["replay", "nowhere.mcap", "--to", "udpout:127.0.0.1:1"], 1, "nowhere.mcap: cannot read the file"),
+        (["fly", "missions/l_shape.yaml", "--master", "tcp:1.2.3.4:5"], 2, "tcp:1.2.3.4:5"),
+        (["fly", "missions/l_shape.yaml", "--master", "udpin:127.0.0.1:notaport"], 2, "notaport"),
+    ],
+)
+def test_bad_input_is_one_line_without_a_traceback(arguments, code, words):
+    done = companion(*arguments)
+    assert done.returncode == code
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not done.stdout
+
+
+@pytest.mark.parametrize("arguments", [["fly", "missions/l_shape.yaml"], ["plan", "m", "--seed", "-1"], ["nonsense"]])
+def test_wrong_usage_exits_with_2(arguments):
+    done = companion(*arguments)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+
+
+def test_plan_prints_one_json_object_and_draws_a_picture(tmp_path):
+    picture = tmp_path / "plan.png"
+    done = companion("plan", "missions/l_shape.yaml", "--json", "--plot", str(picture))
+    assert done.returncode == 0, done.stderr
+    (leg,) = json.loads(done.stdout)["legs"]
+    assert leg["certified"]
+    assert leg["clearance_m"] >= 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_importing_the_planner_alone_pulls_in_no_mavlink_and_no_plotting():
+    code = "import json, sys, planner; print(json.dumps(sorted({m.split('.')[0] for m in sys.modules})))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    modules = set(json.loads(done.stdout))
+    assert "planner" in modules
+    assert not modules & {"pymavlink", "mcap", "matplotlib", "wire", "logs", "companion", "fakevehicle", "filterpy"}
