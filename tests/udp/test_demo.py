@@ -69,9 +69,8 @@ def test_a_busy_port_is_one_clear_line(tmp_path):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
-        done = companion(
-            "fly", "missions/l_shape.yaml", "--master", f"udpin:127.0.0.1:{port}", "--record", str(tmp_path)
-        )
+        master = f"udpin:127.0.0.1:{port}"
+        done = companion("fly", "missions/l_shape.yaml", "--master", master, "--record", str(tmp_path))
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
     assert f"{port} is already in use" in done.stderr
