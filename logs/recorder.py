@@ -119,6 +119,7 @@ class Recorder:
         self._seen_tick = -1
         self._flushed_ns: int | None = None
         self._queue: deque[Callable[[bool], int]] = deque()
+        self._overflowed = 0  # counted by the caller, `_dropped_raw` by the writer: no two threads add to one number
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
         if threaded:
@@ -145,11 +146,17 @@ class Recorder:
         now_us : time of the tick that took or gave it [us].
         tick : index of that tick.
         peer : who sent it, or to whom it went; None: to every peer of the link.
+
+        Raises
+        ------
+        ValueError    A negative time or tick, or the recorder is closed.
         """
+        _check_times(log_time_ns, now_us, tick)
         self._put(lambda decode: self._datagram(link, direction, data, log_time_ns, now_us, tick, peer, decode))
 
     def message(self, topic: str, message: schema.Record, *, log_time_ns: int, now_us: int, tick: int) -> None:
         """Record one of our records; times and tick as in `datagram`."""
+        _check_times(log_time_ns, now_us, tick)
         self._put(lambda _: self._message(topic, message, log_time_ns, now_us, tick))
 
     def metadata(self, name: str, values: Mapping[str, str]) -> None:
@@ -166,7 +173,7 @@ class Recorder:
             decoded=self._decoded,
             messages=self._messages,
             dropped_decoded=self._dropped_decoded,
-            dropped_raw=self._dropped_raw,
+            dropped_raw=self._dropped_raw + self._overflowed,
         )
 
     def close(self) -> None:
@@ -185,7 +192,9 @@ class Recorder:
         self._attempt(self._finish)
         self._file.close()
         if self.failure:
-            raise RecordingError(self.path, f"{self.failure}; {self._dropped_raw} entries are missing at its end")
+            raise RecordingError(
+                self.path, f"{self.failure}; {self.counters.dropped_raw} entries are missing at its end"
+            )
 
     def __enter__(self) -> Self:
         return self
@@ -206,7 +215,7 @@ class Recorder:
         if self._thread is None:
             self._write(write, True)
         elif len(self._queue) >= MAX_BACKLOG:
-            self._dropped_raw += 1
+            self._overflowed += 1
         else:
             self._queue.append(write)
 
@@ -243,6 +252,13 @@ class Recorder:
                     self._container.flush()
         except OSError as error:
             self.failure = f"writing failed: {error.strerror or error}"
+            self._dropped_raw += 1
+        except Exception as error:
+            # Whatever it is, a writer thread must not die without a word: `close` tells it.
+            if self._thread is None:
+                raise
+            self.failure = f"writing failed: {type(error).__name__}: {error}"
+            self._dropped_raw += 1
 
     def _attempt(self, action: Callable[[], None]) -> None:
         if self.failure:
@@ -342,7 +358,7 @@ class Recorder:
 
     def _finish(self) -> None:
         """Write the loss counters and everything a reader seeks by."""
-        values = {"dropped_raw": str(self._dropped_raw), "dropped_decoded": str(self._dropped_decoded)}
+        values = {"dropped_raw": str(self.counters.dropped_raw), "dropped_decoded": str(self._dropped_decoded)}
         for (link, direction), framer in self._framers.items():
             at = f"{link}.{direction}"
             counters = framer.counters
@@ -358,3 +374,9 @@ class Recorder:
                     values[f"{at}.{system}.{component}.lost"] = str(sender.lost)
         self._container.add_metadata("recorder", values)
         self._container.finish()
+
+
+def _check_times(log_time_ns: int, now_us: int, tick: int) -> None:
+    """MCAP's times and sequence are unsigned; a negative one would only be found by the writer thread."""
+    if log_time_ns < 0 or now_us < 0 or tick < 0:
+        raise ValueError(f"log_time_ns {log_time_ns}, now_us {now_us}, tick {tick}: expected none below zero")

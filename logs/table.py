@@ -49,7 +49,10 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
     row: RecordedTick | None = None
     expected = 0
     for message in recording.messages():
-        entry = entry_of(message)
+        try:
+            entry = entry_of(message)
+        except ValueError as error:
+            raise RecordingError(recording.path, f"tick {message.tick}: {error}") from error
         if entry is None:
             continue
         if row is None or message.tick != row.index:

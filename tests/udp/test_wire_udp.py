@@ -174,3 +174,15 @@ def test_wait_names_only_the_links_that_have_something_and_gives_up_in_time(stac
 def test_a_fixed_source_for_a_listening_link_is_our_own_mistake() -> None:
     with pytest.raises(ValueError, match="udpout"):
         UdpLink("vehicle", Endpoint("udpin", "127.0.0.1", 0), local=("127.0.0.1", 0))
+
+
+def test_what_the_kernel_will_not_send_is_counted_and_a_closed_link_is_our_own_mistake(stack: ExitStack) -> None:
+    vehicle = listen(stack)
+    vehicle.send(Datagram("vehicle", bytes(70_000), ("127.0.0.1", 9)))  # larger than any UDP datagram
+    assert (vehicle.counters.send_errors, vehicle.counters.tx_datagrams) == (1, 0)
+    vehicle.close()
+    vehicle.close()
+    with pytest.raises(ValueError, match="'vehicle' is closed"):
+        vehicle.receive()
+    with pytest.raises(ValueError, match="'vehicle' is closed"):
+        vehicle.send(Datagram("vehicle", b"x", ("127.0.0.1", 9)))

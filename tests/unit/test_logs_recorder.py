@@ -252,3 +252,19 @@ def test_a_writer_far_behind_gives_up_decoding_first_and_counts_it(
     assert counters.rx == {"autopilot": 300}
     assert counters.dropped_raw == 100
     assert (counters.decoded, counters.dropped_decoded) == (100, 200)
+
+
+def test_a_negative_time_is_our_own_mistake_at_the_call_even_with_a_thread(tmp_path: Path) -> None:
+    with Recorder(tmp_path / "a.mcap", metadata={}, threaded=True) as recorder:
+        with pytest.raises(ValueError, match="log_time_ns -1"):
+            recorder.datagram("autopilot", "rx", b"", log_time_ns=-1, now_us=0, tick=0)
+        with pytest.raises(ValueError, match="tick -1"):
+            recorder.message("/companion/note", schema.Note(6, "", ""), log_time_ns=0, now_us=0, tick=-1)
+
+
+def test_tables_known_only_at_the_end_are_kept_too(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    with Recorder(path, metadata={}, threaded=True) as recorder:
+        record(recorder, schema.Note(6, "", "x"), 1_000, 0)
+        recorder.metadata("sockets", {"autopilot.drops": "3"})
+    assert Recording.open(path).metadata["sockets"] == {"autopilot.drops": "3"}
