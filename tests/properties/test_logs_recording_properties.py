@@ -84,7 +84,7 @@ def chunk_of(records: bytes) -> bytes:
 
 
 def read_everything(content: bytes) -> str:
-    """Read a file of this content in every way there is; returns the error or the problem (one of them there must be)."""
+    """Read a file of this content in every way there is; returns the error or the problem; one there must be."""
     with scratch() as path:
         path.write_bytes(content)
         try:
