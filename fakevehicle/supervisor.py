@@ -30,6 +30,8 @@ LIFT_PATIENCE_US = 2_000_000
 """A standing vehicle in OFFBOARD keeps its motors flying this long after the last setpoint that asked to climb."""
 ARRIVED = 0.3
 """Height error [m] within which a takeoff is done."""
+RETURN_ARRIVED = 2.0
+"""Distance [m] from the end of a return's leg at which the next one begins."""
 TAKEOFF_PATIENCE_S = 3.0
 """A takeoff that ends this long after its leg, wherever it got to [s]."""
 
@@ -357,7 +359,8 @@ class Supervisor:
             distance = math.dist(home_n[:2], self._anchor_n[:2])
             height = return_height(float(home_n[2] - self._anchor_n[2]), distance, self._parameters["RTL_RETURN_ALT"])
             leg = self._leg = self._leg_to(now_us, np.array([*self._anchor_n[:2], home_n[2] - height]))
-        if now_us - leg.start_us >= leg.duration_s * 1e6:
+        flown = now_us - leg.start_us >= leg.duration_s * 1e6
+        if flown and math.dist(estimate.position_n, leg.end_n) < RETURN_ARRIVED:
             over_home = np.array([home_n[0], home_n[1], leg.end_n[2]])
             self._anchor_n = leg.end_n
             if math.dist(over_home, leg.end_n) < 1e-6:

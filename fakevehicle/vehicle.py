@@ -31,7 +31,7 @@ from fakevehicle.services.setpoints import Setpoints
 from fakevehicle.services.streams import Streams
 from fakevehicle.services.telemetry import Telemetry
 from fakevehicle.supervisor import Supervisor
-from fakevehicle.vocabulary import Truth
+from fakevehicle.vocabulary import Geodetic, Truth
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 from wire.framing import Framer
@@ -107,7 +107,7 @@ class Vehicle:
         )
         self._supervisor = Supervisor(self.parameters)
         self._battery = Battery()
-        self._places = Places(lambda: self._stack.estimate.origin, config.home)
+        self._places = Places(self._origin, config.home)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
         self._telemetry = Telemetry(config, self._stack, self._supervisor, self._battery, self._places)
         self._streams = Streams(self._outbox, config.links, self._telemetry.builders)
@@ -118,7 +118,7 @@ class Vehicle:
         self._handlers = self._routes()
         self._foreign = self._ignored = self._flooded = 0
         self._entered = 0
-        self._told: tuple[object, ...] = ()
+        self._told: tuple[object, ...] | None = None
         self._told_home: object = None
         self._now_us: int | None = None
 
@@ -173,15 +173,17 @@ class Vehicle:
         if self._now_us is not None and now_us != self._now_us + TICK_US:
             raise ValueError(f"now_us {now_us}: expected {self._now_us + TICK_US}, one tick after the last")
         self._now_us = now_us
-        self._telemetry.now_us = now_us
+        telemetry, stack, supervisor = self._telemetry, self._stack, self._supervisor
+        telemetry.now_us = now_us
         if inputs:
             self._take(inputs)
-        setpoint = self._supervisor.step(now_us, self._stack.estimate, self._stack.control.thrust)
-        if self._supervisor.entered != self._entered:
-            self._entered = self._supervisor.entered
-            self._stack.reset_control()
-        self._stack.tick(now_us, setpoint, self._supervisor.armed)
-        self._battery.draw(self._stack.control.thrust, self._supervisor.armed, TICK_US * 1e-6)
+        setpoint = supervisor.step(now_us, telemetry.estimate, stack.control.thrust)
+        if supervisor.entered != self._entered:
+            self._entered = supervisor.entered
+            stack.reset_control()
+        stack.tick(now_us, setpoint, supervisor.armed)
+        telemetry.estimate = stack.estimate
+        self._battery.draw(stack.control.thrust, supervisor.armed, TICK_US * 1e-6)
         self._tell_changes()
         self._parameter_service.step()
         self._streams.step(now_us)
@@ -251,7 +253,9 @@ class Vehicle:
             self._outbox.text(severity, text)
         s.notes.clear()
         state = (s.mode, s.intended, s.armed, s.failsafe, s.airborne, s.landing)
-        if state != self._told:
+        if self._told is None:
+            self._told = state  # the streams begin with this tick
+        elif state != self._told:
             self._told = state
             for message in (
                 self._telemetry.heartbeat(),
@@ -264,6 +268,9 @@ class Vehicle:
             for maybe in (self._telemetry.gps_global_origin(), self._telemetry.home_position()):
                 if maybe is not None:
                     self._outbox.everywhere(maybe)
+
+    def _origin(self) -> Geodetic | None:
+        return self._telemetry.estimate.origin
 
     def _warn(self, text: str) -> None:
         self._outbox.text(mavlink.MAV_SEVERITY_WARNING, text)

@@ -56,7 +56,7 @@ _FLAG = mavlink
 class Telemetry:
     """Builds messages from the vehicle's parts; `builders` is the table the streams use.
 
-    `now_us` is set by the vehicle at each tick.
+    `now_us` and `estimate` are set by the vehicle at each tick.
     """
 
     def __init__(
@@ -68,6 +68,7 @@ class Telemetry:
         self._battery = battery
         self._places = places
         self.now_us = 0
+        self.estimate = stack.estimate
 
     @property
     def builders(self) -> Mapping[int, Callable[[], Message | None]]:
@@ -139,7 +140,7 @@ class Telemetry:
 
     def sys_status(self) -> Message:
         """Health as the estimator has it; PREARM says whether arming would be accepted now (or has been)."""
-        e, s, b = self._stack.estimate, self._supervisor, self._battery
+        e, s, b = self.estimate, self._supervisor, self._battery
         health = _INERTIAL | mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER
         health |= mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE | mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
         health |= mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
@@ -169,7 +170,7 @@ class Telemetry:
     # Where it is
 
     def attitude(self) -> Message | None:
-        e = self._stack.estimate
+        e = self.estimate
         if not e.attitude_valid:
             return None
         w, x, y, z = e.q_nb.tolist()
@@ -179,7 +180,7 @@ class Telemetry:
         return mavlink.MAVLink_attitude_message(self._boot_ms, roll, pitch, yaw, *e.omega_b.tolist())
 
     def attitude_quaternion(self) -> Message | None:
-        e = self._stack.estimate
+        e = self.estimate
         if not e.attitude_valid:
             return None
         return mavlink.MAVLink_attitude_quaternion_message(
@@ -187,13 +188,13 @@ class Telemetry:
         )
 
     def local_position_ned(self) -> Message | None:
-        e = self._stack.estimate
+        e = self.estimate
         if not e.position_valid:
             return None
         return mavlink.MAVLink_local_position_ned_message(self._boot_ms, *e.position_n.tolist(), *e.velocity_n.tolist())
 
     def global_position_int(self) -> Message | None:
-        e, s = self._stack.estimate, self._supervisor
+        e, s = self.estimate, self._supervisor
         if not e.position_valid:
             return None
         place = self._places.e7(e.position_n)
@@ -208,7 +209,7 @@ class Telemetry:
 
     def odometry(self) -> Message | None:
         """Pose in local NED, velocity in body FRD, as the frames say; covariances of what the filter estimates."""
-        e = self._stack.estimate
+        e = self.estimate
         if not (e.attitude_valid and e.position_valid):
             return None
         q = e.q_nb.tolist()
@@ -248,7 +249,7 @@ class Telemetry:
         return None if place is None else mavlink.MAVLink_gps_global_origin_message(*place, self.now_us)
 
     def altitude(self) -> Message | None:
-        e, s = self._stack.estimate, self._supervisor
+        e, s = self.estimate, self._supervisor
         if not e.altitude_valid or e.origin is None:
             return None
         up = -float(e.position_n[2])
@@ -257,7 +258,7 @@ class Telemetry:
         return mavlink.MAVLink_altitude_message(self.now_us, amsl, amsl, up, above_home, NAN, NAN)
 
     def vfr_hud(self) -> Message | None:
-        e = self._stack.estimate
+        e = self.estimate
         if not e.velocity_valid or e.origin is None:
             return None
         vn, ve, vd = e.velocity_n.tolist()
@@ -360,7 +361,7 @@ class Telemetry:
 
     def estimator_status(self) -> Message:
         """Flags of what the filter knows, and its innovation test ratios (above 1: rejected)."""
-        e = self._stack.estimate
+        e = self.estimate
         flags = 0
         if e.attitude_valid:
             flags |= mavlink.ESTIMATOR_ATTITUDE
@@ -414,7 +415,7 @@ class Telemetry:
         return self.now_us // 1000 & 0xFFFFFFFF
 
     def _yaw(self) -> float:
-        w, x, y, z = self._stack.estimate.q_nb.tolist()
+        w, x, y, z = self.estimate.q_nb.tolist()
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 

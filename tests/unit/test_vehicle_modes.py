@@ -1,0 +1,101 @@
+"""The modes' tables: every pair has a written outcome, and each guard refuses with its own reason."""
+
+from dataclasses import replace
+
+import pytest
+
+from fakevehicle.modes import (
+    GUARDS,
+    TRANSITIONS,
+    Conditions,
+    Event,
+    Mode,
+    Special,
+    event_for_custom_mode,
+    refusal,
+)
+
+FINE = Conditions(
+    armed=False,
+    airborne=False,
+    attitude_valid=True,
+    velocity_valid=True,
+    position_valid=True,
+    altitude_valid=True,
+    home_known=True,
+    setpoints_fresh=True,
+    mode=Mode.HOLD,
+)
+
+
+@pytest.mark.parametrize("event", Event)
+@pytest.mark.parametrize("mode", Mode)
+def test_every_mode_and_event_has_a_written_outcome(mode: Mode, event: Event) -> None:
+    assert isinstance(TRANSITIONS[event][mode], Mode | Special)
+    assert event in GUARDS
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_asking_for_a_mode_leads_to_that_mode_from_everywhere(mode: Mode) -> None:
+    event = event_for_custom_mode(*mode.value)
+    assert event is not None
+    assert all(TRANSITIONS[event][before] is mode for before in Mode)
+
+
+@pytest.mark.parametrize("mode", Mode)
+def test_custom_mode_is_main_at_bit_16_and_sub_at_bit_24(mode: Mode) -> None:
+    main, sub = mode.value
+    assert mode.custom_mode.to_bytes(4, "little") == bytes((0, 0, main, sub))
+
+
+def test_custom_mode_of_hold_is_what_px4_sends() -> None:
+    assert Mode.HOLD.custom_mode == 50593792
+    assert Mode.OFFBOARD.custom_mode == 393216
+    assert Mode.LAND.custom_mode == 100925440
+
+
+@pytest.mark.parametrize("mode", [Mode.LAND, Mode.RTL])
+def test_arming_is_refused_in_modes_that_end_on_the_ground(mode: Mode) -> None:
+    reason = refusal(Event.ASK_ARM, replace(FINE, mode=mode))
+    assert reason is not None
+    assert "Hold" in reason
+
+
+@pytest.mark.parametrize(
+    ("missing", "word"),
+    [
+        ("attitude_valid", "attitude"),
+        ("velocity_valid", "velocity"),
+        ("position_valid", "position"),
+        ("altitude_valid", "altitude"),
+        ("home_known", "home"),
+    ],
+)
+def test_arming_names_what_the_estimate_lacks(missing: str, word: str) -> None:
+    assert refusal(Event.ASK_ARM, FINE) is None
+    reason = refusal(Event.ASK_ARM, replace(FINE, **{missing: False}))
+    assert reason is not None
+    assert word in reason
+
+
+def test_offboard_without_a_stream_is_refused_only_when_armed() -> None:
+    silent = replace(FINE, setpoints_fresh=False)
+    assert refusal(Event.ASK_OFFBOARD, silent) is None
+    assert refusal(Event.ASK_OFFBOARD, replace(silent, armed=True)) is not None
+    assert refusal(Event.ASK_ARM, replace(silent, mode=Mode.OFFBOARD)) is not None
+
+
+def test_only_a_kill_stops_the_motors_of_a_flying_vehicle() -> None:
+    flying = replace(FINE, armed=True, airborne=True)
+    assert refusal(Event.ASK_DISARM, flying) == "not landed"
+    assert refusal(Event.ASK_KILL, flying) is None
+
+
+def test_a_lost_stream_matters_in_offboard_only() -> None:
+    assert TRANSITIONS[Event.STREAM_LOST][Mode.OFFBOARD] is Special.FAILSAFE
+    assert all(TRANSITIONS[Event.STREAM_LOST][m] is Special.STAY for m in Mode if m is not Mode.OFFBOARD)
+
+
+@pytest.mark.parametrize(("main", "sub"), [(1, 0), (4, 4), (4, 9), (7, 0), (0, 0), (-1, 0), (255, 255)])
+def test_modes_this_vehicle_does_not_have_are_no_event(main: int, sub: int) -> None:
+    assert event_for_custom_mode(main, sub) is None
