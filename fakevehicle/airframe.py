@@ -1,0 +1,171 @@
+"""The airframe: a YAML file checked once, and the flat record the kernels read.
+
+Frame: body FRD, origin at the centre of mass, SI units. Every number of a shipped file names its source.
+"""
+
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from fakevehicle.errors import AirframeError
+from fakevehicle.vocabulary import FloatArray
+
+GRAVITY = 9.80665
+"""Standard gravity [m/s^2]."""
+AIR_DENSITY = 1.225
+"""International standard atmosphere at sea level [kg/m^3]."""
+
+BODY = np.dtype(
+    [
+        ("mass", "f8"),
+        ("inertia", "f8", (3,)),
+        ("rotor_position", "f8", (4, 3)),
+        ("spin", "f8", (4,)),  # about +z_b, which points down: counter-clockwise from above is -1
+        ("k", "f8"),  # thrust coefficient [N/(rad/s)^2]
+        ("kappa", "f8"),  # torque over thrust [m]
+        ("speed_max", "f8"),
+        ("speed_idle", "f8"),
+        ("tau_up", "f8"),
+        ("tau_down", "f8"),
+        ("c_d", "f8"),  # in-plane rotor drag [N/((rad/s)(m/s))]
+        ("rotor_inertia", "f8"),
+        ("radius", "f8"),
+        ("drag_area", "f8", (3,)),
+        ("air_density", "f8"),
+        ("gravity", "f8"),
+        ("contact", "f8", (4, 3)),
+        ("ground", "f8"),  # z of the ground plane: the vehicle rests on it with its centre of mass at z = 0 [m]
+        ("stiffness", "f8"),
+        ("damping", "f8"),
+        ("friction", "f8"),
+        ("mix", "f8", (4, 4)),  # rotor thrusts from (tau_x, tau_y, tau_z, total thrust)
+    ]
+)
+"""What the physics and the mixer know of the vehicle; one record."""
+
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Real = Annotated[float, Field(allow_inf_nan=False)]
+Vector = tuple[Real, Real, Real]
+
+
+class Rotor(BaseModel):
+    """Where one rotor sits and which way it turns."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    position_b: Vector  # [m]
+    spin: Literal[-1, 1]  # about +z_b (down); -1 is counter-clockwise seen from above
+
+
+class Airframe(BaseModel):
+    """One quadrotor's physical numbers.
+
+    Raises
+    ------
+    pydantic.ValidationError : a number cannot be; `load_airframe` turns it into one `AirframeError`.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    mass: Positive  # [kg]
+    inertia: tuple[Positive, Positive, Positive]  # principal, about the body axes [kg m^2]
+    rotors: tuple[Rotor, Rotor, Rotor, Rotor]  # PX4 order
+    thrust_coefficient: Positive
+    moment_ratio: Positive
+    max_rotor_speed: Positive
+    idle_rotor_speed: NotNegative
+    time_constant_up: Positive
+    time_constant_down: Positive
+    rotor_drag: NotNegative
+    rotor_inertia: NotNegative
+    propeller_radius: Positive
+    drag_area: tuple[NotNegative, NotNegative, NotNegative]
+    contact_points_b: tuple[Vector, Vector, Vector, Vector]
+    contact_stiffness: Positive
+    contact_damping: NotNegative
+    contact_friction: NotNegative
+    source: dict[str, str]
+
+    @model_validator(mode="after")
+    def _can_fly(self) -> "Airframe":
+        thrust = 4 * self.thrust_coefficient * self.max_rotor_speed**2
+        if thrust <= 1.05 * self.mass * GRAVITY:
+            raise ValueError(f"full thrust {thrust:.3g} N cannot lift {self.mass:.3g} kg")
+        if np.linalg.matrix_rank(self.allocation()) < 4:
+            raise ValueError("the rotors cannot produce three torques and a thrust independently")
+        unnamed = set(type(self).model_fields) - {"name", "source"} - set(self.source)
+        if unnamed:
+            raise ValueError(f"no source given for {', '.join(sorted(unnamed))}")
+        return self
+
+    def allocation(self) -> FloatArray:
+        """(4, 4) matrix from the rotors' thrusts to (tau_x, tau_y, tau_z, T), [N m] and [N].
+
+        A thrust T_i along -z_b at r_i makes the torque r_i x (0, 0, -T_i) = (-y_i, x_i, 0) T_i and the drag torque
+        -s_i kappa T_i about z_b.
+        """
+        return np.array(
+            [[-r.position_b[1], r.position_b[0], -r.spin * self.moment_ratio, 1.0] for r in self.rotors], dtype=float
+        ).T
+
+    @property
+    def hover_speed(self) -> float:
+        """Rotor speed at which the thrust balances the weight [rad/s]."""
+        return float(np.sqrt(self.mass * GRAVITY / (4 * self.thrust_coefficient)))
+
+    def record(self) -> np.ndarray[Any, np.dtype[np.void]]:
+        """The (1,) array of `BODY` the kernels read."""
+        body = np.zeros(1, BODY)
+        b = body[0]
+        b["mass"], b["inertia"] = self.mass, self.inertia
+        b["rotor_position"] = [r.position_b for r in self.rotors]
+        b["spin"] = [r.spin for r in self.rotors]
+        b["k"], b["kappa"] = self.thrust_coefficient, self.moment_ratio
+        b["speed_max"], b["speed_idle"] = self.max_rotor_speed, self.idle_rotor_speed
+        b["tau_up"], b["tau_down"] = self.time_constant_up, self.time_constant_down
+        b["c_d"], b["rotor_inertia"], b["radius"] = self.rotor_drag, self.rotor_inertia, self.propeller_radius
+        b["drag_area"], b["air_density"], b["gravity"] = self.drag_area, AIR_DENSITY, GRAVITY
+        b["contact"] = self.contact_points_b
+        b["stiffness"], b["damping"] = self.contact_stiffness, self.contact_damping
+        b["friction"] = self.contact_friction
+        foot = float(np.mean([point[2] for point in self.contact_points_b]))
+        b["ground"] = foot - self.mass * GRAVITY / (4 * self.contact_stiffness)
+        b["mix"] = np.linalg.inv(self.allocation())
+        return body
+
+
+def load_airframe(name: str) -> Airframe:
+    """Read an airframe by the name of a shipped one, or by the path of a YAML file.
+
+    Raises
+    ------
+    AirframeError : no such file, not YAML, or a field that cannot be; the message says file, field, found, expected.
+    """
+    shipped = resources.files("fakevehicle") / "airframes" / f"{name}.yaml"
+    path = Path(name)
+    try:
+        text = path.read_text(encoding="utf-8") if path.suffix in (".yaml", ".yml") else shipped.read_text("utf-8")
+    except OSError as error:
+        listed = sorted(f.name[:-5] for f in (resources.files("fakevehicle") / "airframes").iterdir())
+        raise AirframeError(name, "", error.strerror or "nothing", f"a file, or one of {', '.join(listed)}") from error
+    try:
+        content = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        problem = getattr(error, "problem", None) or "no YAML"
+        mark = getattr(error, "problem_mark", None)
+        raise AirframeError(name, f"line {mark.line + 1}" if mark else "", problem, "YAML") from error
+    if not isinstance(content, dict):
+        raise AirframeError(name, "", type(content).__name__, "a mapping of fields")
+    try:
+        return Airframe.model_validate(content)
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"])
+        found = "nothing" if first["type"] == "missing" else repr(first["input"]) if field else "these numbers"
+        raise AirframeError(name, field, found, first["msg"].removeprefix("Value error, ")) from error

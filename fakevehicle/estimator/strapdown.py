@@ -1,0 +1,189 @@
+"""The nominal state and how the IMU carries it on: kernels.
+
+Nominal state (16,): position_n 0:3, velocity_n 3:6, q_nb (wxyz) 6:10, gyro bias 10:13, accelerometer bias 13:16.
+Error state (15,): dtheta 0:3 (in b), dv 3:6, dp 6:9, db_g 9:12, db_a 12:15 (Sola 2017, Quaternion kinematics for the
+error-state Kalman filter, ch. 5-6). With the tick's delta angle dT and delta velocity dV (biases removed):
+
+    F_tt = I - [dT]x      F_tbg = -I dt        F_vt = -R [dV]x      F_vba = -R dt
+    F_pv = I dt           F_pt = dt/2 F_vt     F_pba = dt/2 F_vba
+"""
+
+import math
+
+from fakevehicle.jit import kernel
+
+NOMINAL, ERROR = 16, 15
+
+
+@kernel
+def turn(q, x, y, z):  # type: ignore[no-untyped-def]
+    """q <- q * Exp(x, y, z) in place, normalised; the rotation vector is in b [rad]. `q` is (4,) wxyz."""
+    angle = math.sqrt(x * x + y * y + z * z)
+    s = 0.5 - angle * angle / 48.0 if angle < 1e-4 else math.sin(0.5 * angle) / angle
+    c = math.cos(0.5 * angle)
+    x, y, z = s * x, s * y, s * z
+    w0, x0, y0, z0 = q[0], q[1], q[2], q[3]
+    w1 = w0 * c - x0 * x - y0 * y - z0 * z
+    x1 = w0 * x + x0 * c + y0 * z - z0 * y
+    y1 = w0 * y - x0 * z + y0 * c + z0 * x
+    z1 = w0 * z + x0 * y - y0 * x + z0 * c
+    n = 1.0 / math.sqrt(w1 * w1 + x1 * x1 + y1 * y1 + z1 * z1)
+    q[0], q[1], q[2], q[3] = w1 * n, x1 * n, y1 * n, z1 * n
+
+
+@kernel
+def matrix(q):  # type: ignore[no-untyped-def]
+    """R_nb of a wxyz quaternion as nine numbers, row by row."""
+    w, x, y, z = q[0], q[1], q[2], q[3]
+    return (
+        1 - 2 * (y * y + z * z),
+        2 * (x * y - w * z),
+        2 * (x * z + w * y),
+        2 * (x * y + w * z),
+        1 - 2 * (x * x + z * z),
+        2 * (y * z - w * x),
+        2 * (x * z - w * y),
+        2 * (y * z + w * x),
+        1 - 2 * (x * x + y * y),
+    )
+
+
+@kernel
+def propagate(nominal, imu, dt, gravity, noise, F, Q):  # type: ignore[no-untyped-def]
+    """Carry the nominal state over one tick and write the transition and the process noise of its error.
+
+    Parameters
+    ----------
+    nominal : (16,) in place.
+    imu : (6,) mean gyro [rad/s] and specific force [m/s^2] of the tick, biases still in.
+    dt : [s].  gravity : [m/s^2].
+    noise : (4,) 1 sigma of gyro and accelerometer samples, and of the biases' rates [rad/s^2], [m/s^3].
+    F, Q : (15, 15), written; entries that never change are left alone.
+    """
+    tx, ty, tz = (imu[0] - nominal[10]) * dt, (imu[1] - nominal[11]) * dt, (imu[2] - nominal[12]) * dt
+    vx, vy, vz = (imu[3] - nominal[13]) * dt, (imu[4] - nominal[14]) * dt, (imu[5] - nominal[15]) * dt
+    # body turned while it was pushed: dV + 1/2 dT x dV
+    ux, uy, uz = vx + 0.5 * (ty * vz - tz * vy), vy + 0.5 * (tz * vx - tx * vz), vz + 0.5 * (tx * vy - ty * vx)
+    q = nominal[6:10]
+    r = matrix(q)
+    half = 0.5 * dt
+    for i in range(3):
+        dv = r[3 * i] * ux + r[3 * i + 1] * uy + r[3 * i + 2] * uz
+        if i == 2:
+            dv += gravity * dt
+        nominal[i] += dt * nominal[3 + i] + half * dv
+        nominal[3 + i] += dv
+        # -R [dV]x, row i
+        a, b, c = r[3 * i], r[3 * i + 1], r[3 * i + 2]
+        F[3 + i, 0] = -(b * vz - c * vy)
+        F[3 + i, 1] = -(c * vx - a * vz)
+        F[3 + i, 2] = -(a * vy - b * vx)
+        for j in range(3):
+            F[3 + i, 12 + j] = -dt * r[3 * i + j]
+            F[6 + i, j] = half * F[3 + i, j]
+            F[6 + i, 12 + j] = half * F[3 + i, 12 + j]
+        F[6 + i, 3 + i] = dt
+        F[i, 9 + i] = -dt
+    F[0, 1], F[0, 2], F[1, 2] = tz, -ty, tx
+    F[1, 0], F[2, 0], F[2, 1] = -tz, ty, -tx
+    turn(q, tx, ty, tz)
+    s_v = noise[1] * noise[1] * dt  # spectral density of the accelerometer's noise [(m/s^2)^2/Hz]
+    for i in range(3):
+        Q[i, i] = (noise[0] * dt) ** 2
+        Q[3 + i, 3 + i] = s_v * dt
+        Q[3 + i, 6 + i] = s_v * dt * dt / 2.0
+        Q[6 + i, 3 + i] = s_v * dt * dt / 2.0
+        Q[6 + i, 6 + i] = s_v * dt * dt * dt / 3.0
+        Q[9 + i, 9 + i] = (noise[2] * dt) ** 2
+        Q[12 + i, 12 + i] = (noise[3] * dt) ** 2
+
+
+@kernel
+def inject(nominal, error, P, scratch):  # type: ignore[no-untyped-def]
+    """Move the estimated error into the nominal state and turn P with it: P <- G P G^T, G = I - [dtheta/2]x.
+
+    Parameters
+    ----------
+    nominal : (16,), error : (15,), P : (15, 15), all in place; the error is zero afterwards.
+    scratch : (15, 15).
+    """
+    x, y, z = 0.5 * error[0], 0.5 * error[1], 0.5 * error[2]
+    for i in range(3):
+        nominal[i] += error[6 + i]
+        nominal[3 + i] += error[3 + i]
+        nominal[10 + i] += error[9 + i]
+        nominal[13 + i] += error[12 + i]
+    turn(nominal[6:10], error[0], error[1], error[2])
+    for j in range(15):
+        a, b, c = P[0, j], P[1, j], P[2, j]
+        scratch[0, j] = a + z * b - y * c
+        scratch[1, j] = b - z * a + x * c
+        scratch[2, j] = c + y * a - x * b
+        for i in range(3, 15):
+            scratch[i, j] = P[i, j]
+    for i in range(15):
+        a, b, c = scratch[i, 0], scratch[i, 1], scratch[i, 2]
+        scratch[i, 0] = a + z * b - y * c
+        scratch[i, 1] = b - z * a + x * c
+        scratch[i, 2] = c + y * a - x * b
+    for i in range(15):
+        for j in range(15):
+            P[i, j] = 0.5 * (scratch[i, j] + scratch[j, i])
+        error[i] = 0.0
+
+
+@kernel
+def predict_output(out, ring, newest, delayed, imu, nominal, dt, gravity, gains):  # type: ignore[no-untyped-def]
+    """Carry the output over one tick and pull it towards the filter, which sees the past.
+
+    The difference between filter and output is taken where both know the state, at the horizon, and a share of it is
+    added to every stored output since, so that it dies away with a time constant and never swings.
+
+    Parameters
+    ----------
+    out : (16,) position, velocity, q_nb, omega_b, acceleration_n at the newest IMU sample; in place.
+    ring : (n, 10) outputs since the horizon (position, velocity, q_nb).  newest, delayed : rows.
+    imu : (6,) newest sample.  nominal : (16,) the filter at the horizon.
+    gains : (3,) shares a tick for position, velocity, attitude.
+    """
+    tx, ty, tz = (imu[0] - nominal[10]) * dt, (imu[1] - nominal[11]) * dt, (imu[2] - nominal[12]) * dt
+    vx, vy, vz = (imu[3] - nominal[13]) * dt, (imu[4] - nominal[14]) * dt, (imu[5] - nominal[15]) * dt
+    ux, uy, uz = vx + 0.5 * (ty * vz - tz * vy), vy + 0.5 * (tz * vx - tx * vz), vz + 0.5 * (tx * vy - ty * vx)
+    q = out[6:10]
+    r = matrix(q)
+    for i in range(3):
+        dv = r[3 * i] * ux + r[3 * i + 1] * uy + r[3 * i + 2] * uz
+        if i == 2:
+            dv += gravity * dt
+        out[i] += dt * out[3 + i] + 0.5 * dt * dv
+        out[3 + i] += dv
+        out[13 + i] = dv / dt
+    out[10], out[11], out[12] = tx / dt, ty / dt, tz / dt
+    turn(q, tx, ty, tz)
+    for i in range(10):
+        ring[newest, i] = out[i]
+    past = ring[delayed]
+    # attitude difference as a rotation vector in n: q_filter * q_past^-1
+    w0, x0, y0, z0 = nominal[6], nominal[7], nominal[8], nominal[9]
+    w1, x1, y1, z1 = past[6], -past[7], -past[8], -past[9]
+    ew = w0 * w1 - x0 * x1 - y0 * y1 - z0 * z1
+    sign = 2.0 * gains[2] * (1.0 if ew >= 0.0 else -1.0)
+    ex = sign * (w0 * x1 + x0 * w1 + y0 * z1 - z0 * y1)
+    ey = sign * (w0 * y1 - x0 * z1 + y0 * w1 + z0 * x1)
+    ez = sign * (w0 * z1 + x0 * y1 - y0 * x1 + z0 * w1)
+    p = (gains[0] * (nominal[0] - past[0]), gains[0] * (nominal[1] - past[1]), gains[0] * (nominal[2] - past[2]))
+    v = (gains[1] * (nominal[3] - past[3]), gains[1] * (nominal[4] - past[4]), gains[1] * (nominal[5] - past[5]))
+    n = ring.shape[0]
+    for k in range(n):
+        row = ring[k]
+        age = ((k - delayed) % n) * dt  # a change of velocity has moved the later positions
+        for i in range(3):
+            row[i] += p[i] + age * v[i]
+            row[3 + i] += v[i]
+        rot = row[6:10]
+        m = matrix(rot)
+        turn(
+            rot, m[0] * ex + m[3] * ey + m[6] * ez, m[1] * ex + m[4] * ey + m[7] * ez, m[2] * ex + m[5] * ey + m[8] * ez
+        )
+    for i in range(10):
+        out[i] = ring[newest, i]

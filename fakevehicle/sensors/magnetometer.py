@@ -1,0 +1,39 @@
+"""A magnetometer: the local field seen from the body, with white noise.
+
+The field is Zurich's (IGRF-13 for 2025: declination 3.4 deg east, inclination 63.3 deg, 0.484 gauss), wherever home is;
+the estimator knows it, as a real one does from its table of the earth's field.
+"""
+
+import math
+
+import numpy as np
+
+from fakevehicle.estimator.strapdown import matrix
+from fakevehicle.vocabulary import FloatArray, MagSample
+
+DECLINATION, INCLINATION, STRENGTH = math.radians(3.4), math.radians(63.3), 0.484
+
+
+def field_n() -> FloatArray:
+    """The magnetic field in n, (3,) [gauss]."""
+    flat = STRENGTH * math.cos(INCLINATION)
+    return np.array([flat * math.cos(DECLINATION), flat * math.sin(DECLINATION), STRENGTH * math.sin(INCLINATION)])
+
+
+class Magnetometer:
+    """Three axes of the field in b.
+
+    Parameters
+    ----------
+    rng : source of its noise.
+    noise : 1 sigma an axis [gauss].
+    """
+
+    def __init__(self, rng: np.random.Generator, noise: float) -> None:
+        self._rng, self.noise = rng, noise
+        self._field_n = field_n()
+
+    def measure(self, now_us: int, q_nb: FloatArray) -> MagSample:
+        """A sample at truth's attitude (wxyz). Three draws."""
+        seen = np.array(matrix(q_nb)).reshape(3, 3).T @ self._field_n
+        return MagSample(now_us, seen + self.noise * self._rng.standard_normal(3))
