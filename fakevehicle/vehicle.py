@@ -177,13 +177,13 @@ class Vehicle:
         telemetry.now_us = now_us
         if inputs:
             self._take(inputs)
-        setpoint = supervisor.step(now_us, telemetry.estimate, stack.control.thrust)
+        setpoint = supervisor.step(now_us, telemetry.estimate, telemetry.control.thrust)
         if supervisor.entered != self._entered:
             self._entered = supervisor.entered
             stack.reset_control()
         stack.tick(now_us, setpoint, supervisor.armed)
-        telemetry.estimate = stack.estimate
-        self._battery.draw(stack.control.thrust, supervisor.armed, TICK_US * 1e-6)
+        telemetry.estimate, telemetry.control = stack.estimate, stack.control
+        self._battery.draw(telemetry.control.thrust, supervisor.armed, TICK_US * 1e-6)
         self._tell_changes()
         self._parameter_service.step()
         self._streams.step(now_us)

@@ -21,6 +21,7 @@ class Pilot:
         self.heard: list[tuple[int, str, Address | None, Any]] = []
         self._mavlink = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
         self._waiting: list[Datagram] = []
+        self._newest: dict[str, Any] = {}
 
     def bytes_of(self, message: Any, *, mavlink1: bool = False) -> bytes:
         packed: bytes = message.pack(self._mavlink, force_mavlink1=mavlink1)
@@ -42,6 +43,8 @@ class Pilot:
             for datagram in self.vehicle.step(self.now_us, inputs):
                 message = self._mavlink.decode(bytearray(datagram.data))
                 self.heard.append((self.now_us, datagram.link, datagram.peer, message))
+                if datagram.link == self.link:
+                    self._newest[message.get_type()] = message
             self.now_us += TICK_US
         return [m for _, link, _, m in self.heard[begin:] if link == self.link]
 
@@ -74,7 +77,8 @@ class Pilot:
         return [m for _, link, _, m in self.heard if link == self.link and m.get_type() == kind]
 
     def last(self, kind: str) -> Any:
-        return self.of(kind)[-1]
+        """The newest message of one kind on our link."""
+        return self._newest[kind]
 
     def texts(self) -> list[str]:
         """STATUSTEXTs, their chunks put together again."""

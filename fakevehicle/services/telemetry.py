@@ -56,7 +56,7 @@ _FLAG = mavlink
 class Telemetry:
     """Builds messages from the vehicle's parts; `builders` is the table the streams use.
 
-    `now_us` and `estimate` are set by the vehicle at each tick.
+    `now_us`, `estimate` and `control` are set by the vehicle at each tick.
     """
 
     def __init__(
@@ -69,6 +69,7 @@ class Telemetry:
         self._places = places
         self.now_us = 0
         self.estimate = stack.estimate
+        self.control = stack.control
 
     @property
     def builders(self) -> Mapping[int, Callable[[], Message | None]]:
@@ -263,7 +264,7 @@ class Telemetry:
             return None
         vn, ve, vd = e.velocity_n.tolist()
         heading = round(math.degrees(self._yaw())) % 360
-        throttle = round(100 * self._stack.control.thrust) if self._supervisor.armed else 0
+        throttle = round(100 * self.control.thrust) if self._supervisor.armed else 0
         amsl = e.origin.altitude - float(e.position_n[2])
         return mavlink.MAVLink_vfr_hud_message(0.0, math.hypot(vn, ve), heading, throttle, amsl, -vd)
 
@@ -331,7 +332,7 @@ class Telemetry:
         """What the position loop follows, NaN where it follows nothing."""
         if not self._supervisor.armed:
             return None
-        s = self._stack.control.setpoint
+        s = self.control.setpoint
         return mavlink.MAVLink_position_target_local_ned_message(
             self._boot_ms,
             mavlink.MAV_FRAME_LOCAL_NED,
@@ -346,7 +347,7 @@ class Telemetry:
     def attitude_target(self) -> Message | None:
         if not self._supervisor.armed:
             return None
-        c = self._stack.control
+        c = self.control
         return mavlink.MAVLink_attitude_target_message(
             self._boot_ms, 0, c.attitude_setpoint_q_nb.tolist(), *c.rate_setpoint_b.tolist(), c.thrust
         )
@@ -354,7 +355,7 @@ class Telemetry:
     def servo_output_raw(self) -> Message:
         """Motor commands as pulse widths: 1000 to 2000 us, 900 while disarmed, as PX4's SIH shows them."""
         if self._supervisor.armed:
-            pulses = [1000 + round(1000 * min(max(m, 0.0), 1.0)) for m in self._stack.control.motor.tolist()]
+            pulses = [1000 + round(1000 * min(max(m, 0.0), 1.0)) for m in self.control.motor.tolist()]
         else:
             pulses = [900] * 4
         return mavlink.MAVLink_servo_output_raw_message(self.now_us & 0xFFFFFFFF, 0, *pulses, 0, 0, 0, 0)
