@@ -13,7 +13,7 @@ from rich.console import Console
 
 from fakevehicle.config import MAX_LINKS, LinkConfig, VehicleConfig
 from fakevehicle.driver import PX4_LINKS, DriverCounters, LinkPlan, open_links, run
-from fakevehicle.errors import VehicleError
+from fakevehicle.errors import AirframeError, VehicleError
 from fakevehicle.vehicle import PARAMETERS, TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
 from wire.endpoint import Endpoint
@@ -42,7 +42,7 @@ def fly(
         str, typer.Option(metavar="LAT,LON,ALT,HEADING", help="Degrees, metres above sea level, degrees.")
     ] = "47.397742,8.545594,488,0",
     wind: Annotated[
-        str, typer.Option(metavar="N,E,D", help="Where the air moves to: north, east, down [m/s].")
+        str, typer.Option(metavar="N,E,D", help="Where the air moves to: north, east, down, m/s.")
     ] = "0,0,0",
     seed: Annotated[int, typer.Option(help="Of every random number.")] = 1,
     param: Annotated[list[str] | None, typer.Option("--param", metavar="NAME=VALUE", help="Set a parameter.")] = None,
@@ -75,8 +75,8 @@ def fly(
         _fail(str(error), 1)
     try:
         counters = _fly(config, parameters, plans, links, speed)
-    except ValueError as error:  # a parameter out of its range
-        _fail(str(error), 2)
+    except AirframeError as error:
+        _fail(f"--airframe {airframe}: {error}", 2)
     except VehicleError as error:
         _fail(str(error), 1)
     finally:

@@ -38,6 +38,8 @@ from wire.framing import Framer
 
 TICK_US = 4_000
 READ_ONLY = frozenset({"MAV_SYS_ID"})
+THRUST_TICKS = 5
+"""The thrust is looked at every fifth tick only: reading the loops' status costs as much as a whole tick's messages."""
 MAX_PACKETS = 2048
 """Most packets of one tick; what is more is dropped and counted."""
 
@@ -118,6 +120,8 @@ class Vehicle:
         self._handlers = self._routes()
         self._foreign = self._ignored = self._flooded = 0
         self._entered = 0
+        self._ticks = 0
+        self._thrust = 0.0
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
         self._now_us: int | None = None
@@ -177,13 +181,16 @@ class Vehicle:
         telemetry.now_us = now_us
         if inputs:
             self._take(inputs)
-        setpoint = supervisor.step(now_us, telemetry.estimate, telemetry.control.thrust)
+        setpoint = supervisor.step(now_us, telemetry.estimate, self._thrust)
         if supervisor.entered != self._entered:
             self._entered = supervisor.entered
             stack.reset_control()
         stack.tick(now_us, setpoint, supervisor.armed)
-        telemetry.estimate, telemetry.control = stack.estimate, stack.control
-        self._battery.draw(telemetry.control.thrust, supervisor.armed, TICK_US * 1e-6)
+        telemetry.estimate = stack.estimate
+        self._ticks += 1
+        if self._ticks % THRUST_TICKS == 0:
+            self._thrust = stack.control.thrust
+            self._battery.draw(self._thrust, supervisor.armed, THRUST_TICKS * TICK_US * 1e-6)
         self._tell_changes()
         self._parameter_service.step()
         self._streams.step(now_us)

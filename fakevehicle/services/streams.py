@@ -140,13 +140,15 @@ class Streams:
                 continue
             next_us = now_us + LONGEST_US
             for stream in table.values():
-                if stream.due_us <= now_us:
+                due_us = stream.due_us
+                if due_us <= now_us:
                     message = self._builders[stream.message_id]()
                     if message is not None:
                         self._outbox.broadcast(link, message)
-                    stream.due_us += stream.interval_us
-                    if stream.due_us <= now_us:
-                        stream.due_us = now_us + stream.interval_us
-                if stream.due_us < next_us:
-                    next_us = stream.due_us
+                    due_us += stream.interval_us
+                    if due_us <= now_us:
+                        due_us = now_us + stream.interval_us
+                    stream.due_us = due_us
+                if due_us < next_us:
+                    next_us = due_us
             self._next_us[link] = next_us

@@ -56,7 +56,7 @@ _FLAG = mavlink
 class Telemetry:
     """Builds messages from the vehicle's parts; `builders` is the table the streams use.
 
-    `now_us`, `estimate` and `control` are set by the vehicle at each tick.
+    `now_us` and `estimate` are set by the vehicle at each tick.
     """
 
     def __init__(
@@ -69,7 +69,6 @@ class Telemetry:
         self._places = places
         self.now_us = 0
         self.estimate = stack.estimate
-        self.control = stack.control
 
     @property
     def builders(self) -> Mapping[int, Callable[[], Message | None]]:
@@ -214,11 +213,7 @@ class Telemetry:
         if not (e.attitude_valid and e.position_valid):
             return None
         q = e.q_nb.tolist()
-        p, v = e.covariance.diagonal()[6:9].tolist(), e.covariance.diagonal()[3:6].tolist()
-        tilt = e.covariance.diagonal()[0:3].tolist()
-        # Upper triangles, row by row: only the diagonal is given, the first NaN of the rest says "unknown".
-        pose = _upper_triangle(p, tilt)
-        velocity = _upper_triangle(v, [NAN, NAN, NAN])
+        t1, t2, t3, v1, v2, v3, p1, p2, p3 = e.covariance.diagonal()[:9].tolist()
         return mavlink.MAVLink_odometry_message(
             self.now_us,
             mavlink.MAV_FRAME_LOCAL_NED,
@@ -227,8 +222,8 @@ class Telemetry:
             q,
             *_into_body(q, e.velocity_n.tolist()),
             *e.omega_b.tolist(),
-            pose,
-            velocity,
+            _upper_triangle(p1, p2, p3, t1, t2, t3),
+            _upper_triangle(v1, v2, v3, NAN, NAN, NAN),
             0,
             mavlink.MAV_ESTIMATOR_TYPE_AUTOPILOT,
             100,
@@ -264,7 +259,7 @@ class Telemetry:
             return None
         vn, ve, vd = e.velocity_n.tolist()
         heading = round(math.degrees(self._yaw())) % 360
-        throttle = round(100 * self.control.thrust) if self._supervisor.armed else 0
+        throttle = round(100 * self._stack.control.thrust) if self._supervisor.armed else 0
         amsl = e.origin.altitude - float(e.position_n[2])
         return mavlink.MAVLink_vfr_hud_message(0.0, math.hypot(vn, ve), heading, throttle, amsl, -vd)
 
@@ -332,7 +327,7 @@ class Telemetry:
         """What the position loop follows, NaN where it follows nothing."""
         if not self._supervisor.armed:
             return None
-        s = self.control.setpoint
+        s = self._stack.control.setpoint
         return mavlink.MAVLink_position_target_local_ned_message(
             self._boot_ms,
             mavlink.MAV_FRAME_LOCAL_NED,
@@ -347,7 +342,7 @@ class Telemetry:
     def attitude_target(self) -> Message | None:
         if not self._supervisor.armed:
             return None
-        c = self.control
+        c = self._stack.control
         return mavlink.MAVLink_attitude_target_message(
             self._boot_ms, 0, c.attitude_setpoint_q_nb.tolist(), *c.rate_setpoint_b.tolist(), c.thrust
         )
@@ -355,7 +350,7 @@ class Telemetry:
     def servo_output_raw(self) -> Message:
         """Motor commands as pulse widths: 1000 to 2000 us, 900 while disarmed, as PX4's SIH shows them."""
         if self._supervisor.armed:
-            pulses = [1000 + round(1000 * min(max(m, 0.0), 1.0)) for m in self.control.motor.tolist()]
+            pulses = [1000 + round(1000 * min(max(m, 0.0), 1.0)) for m in self._stack.control.motor.tolist()]
         else:
             pulses = [900] * 4
         return mavlink.MAVLink_servo_output_raw_message(self.now_us & 0xFFFFFFFF, 0, *pulses, 0, 0, 0, 0)
@@ -424,8 +419,9 @@ def _clip16(value: float) -> int:
     return min(max(round(value), -32768), 32767)
 
 
-def _centi(values: FloatArray) -> list[int]:
-    return [_clip16(v * 100.0) for v in values.tolist()]
+def _centi(values: FloatArray) -> tuple[int, int, int]:
+    x, y, z = values.tolist()
+    return _clip16(x * 100.0), _clip16(y * 100.0), _clip16(z * 100.0)
 
 
 def _centidegrees(angle: float) -> int:
@@ -442,7 +438,7 @@ def _into_body(q: list[float], v: list[float]) -> tuple[float, float, float]:
     return a + 2.0 * (z * ty - y * tz), b + 2.0 * (x * tz - z * tx), c + 2.0 * (y * tx - x * ty)
 
 
-def _upper_triangle(first: list[float], second: list[float]) -> list[float]:
-    """Row-major upper triangle of a 6x6 matrix with this diagonal and NaN elsewhere."""
-    diagonal = [*first, *second]
-    return [diagonal[row] if row == column else NAN for row in range(6) for column in range(row, 6)]
+def _upper_triangle(a: float, b: float, c: float, d: float, e: float, f: float) -> list[float]:
+    """Row-major upper triangle of a 6x6 matrix with this diagonal, NaN (not estimated) elsewhere."""
+    n = NAN
+    return [a, n, n, n, n, n, b, n, n, n, n, c, n, n, n, d, n, n, e, n, f]
