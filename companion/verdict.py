@@ -28,6 +28,9 @@ ESTIMATE = mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED
 SETPOINT = mavlink.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED
 
 
+TRUTH_ID, ESTIMATE_ID = (i.to_bytes(3, "little") for i in (TRUTH, ESTIMATE))
+
+
 @dataclass(frozen=True, slots=True)
 class ErrorStatistics:
     """Of |position - reference| [m]."""
@@ -79,6 +82,8 @@ class FlightMeter:
                 self._setpoints_us.append(tick.sent_us)
 
     def _hear(self, received_us: int, data: bytes) -> None:
+        if _is_one_packet(data) and data[7:10] not in (TRUTH_ID, ESTIMATE_ID):
+            return  # nine datagrams in ten, at a tenth of the price of framing them
         for packet in self._framer.packets(data):
             if packet.message_id == ESTIMATE:
                 m: Any = self._mav.decode(bytearray(packet.raw))
@@ -231,6 +236,11 @@ def least_clearance(mission: Mission, position_m: FloatArray) -> float | None:
     if not world.obstacles:
         return None
     return float(np.min(world.distance(position_m))) - mission.vehicle.radius
+
+
+def _is_one_packet(data: bytes) -> bool:
+    """Whether a datagram looks like one unsigned MAVLink 2 packet and nothing else."""
+    return len(data) >= 12 and data[0] == 0xFD and len(data) == data[1] + 12
 
 
 def _statistics(track: Track | None) -> ErrorStatistics | None:
