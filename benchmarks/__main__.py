@@ -1,0 +1,15 @@
+"""`python -m benchmarks`: every benchmark, one after another."""
+
+import sys
+
+from benchmarks import bench_planner, bench_simulate
+
+
+def main() -> None:
+    sys.argv = sys.argv[:1]
+    bench_planner.main()
+    bench_simulate.main()
+
+
+if __name__ == "__main__":
+    main()
