@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """One tick of the vehicle without its estimator: 4 ms of loops, physics and IMU in a single compiled call.
 
 Order: outer loops once on the newest estimate; then four times: gyro sample, rate loop and mixer, one RK4 step of 1 ms
@@ -22,7 +24,7 @@ DRAWS = 4 * 6 + 6 + 3
 
 
 @kernel
-def advance(  # type: ignore[no-untyped-def]
+def advance(
     motors, setpoint, nav, bias, noise, x, work, anchor, wind, body_, gains_, status_, bank, coefficients, states, imu_
 ):
     """Advance everything by one tick.

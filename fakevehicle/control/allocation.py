@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """From three torques and a thrust to four rotor speeds, giving up the least important axis first.
 
 Rotor thrusts are linear in the demand, T_i = mix_i . (tau_x, tau_y, tau_z, T), and each must lie in [T_min, T_max].
@@ -11,7 +13,7 @@ from fakevehicle.jit import kernel
 
 
 @kernel
-def allocate(body, torque_x, torque_y, torque_z, thrust, command, pushed):  # type: ignore[no-untyped-def]
+def allocate(body, torque_x, torque_y, torque_z, thrust, command, pushed):
     """Rotor speed setpoints that come as close to the demand as the rotors allow.
 
     Parameters

@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """How the loops hang together: position -> velocity -> attitude (250 Hz) -> body rates (1 kHz) -> mixer.
 
     v_sp = v_ff + P_p (p_sp - p)                         limited in speed
@@ -58,7 +60,7 @@ LOOPS = np.dtype(
 
 
 @kernel
-def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, period):  # type: ignore[no-untyped-def]
+def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, period):
     """Position, velocity and attitude loops: from a setpoint and an estimate to body rates and thrust in `status`.
 
     An axis with no position, velocity or acceleration asked for stands still (velocity zero).
@@ -183,7 +185,7 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
 
 
 @kernel
-def rate_loop(gyro_x, gyro_y, gyro_z, status, body, bank, coefficients, states):  # type: ignore[no-untyped-def]
+def rate_loop(gyro_x, gyro_y, gyro_z, status, body, bank, coefficients, states):
     """Body rates to rotor speeds, written into `status.command`; once a substep.
 
     Parameters

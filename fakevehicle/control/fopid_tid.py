@@ -1,10 +1,12 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """The FOPID-TID law, one loop a call.
 
     u = u_ff + Kp (b r - y) + Kt D^(-1/n) e + (Ki D^(-lambda) + Ki0 D^(-1)) e - Kd D^mu F(s) y,     e = r - y
 
 Special cases: Kt = 0 is the paper's FOPID (eq. 42); Kp = 0, lambda = mu = 1 is Lurie's tilt-integral-derivative (US
 5,371,670); Kt = 0, lambda = mu = 1 is PID. The derivative acts on the measurement only (c = 0) and its coefficients
-never change in flight. The paper's Algorithm 1 adds lambda + mu to u, which has no dimension to stand in; it is not done.
+never change in flight. The paper's Algorithm 1 adds lambda + mu to u, which has no dimension to stand in: not done.
 
 D^(-lambda) is s^(1 - lambda) followed by a trapezoidal 1/s, so that the last thing in the chain is an integrator: the
 one anti-windup feeds. It holds Ki times the integral, so that a change of Ki does not bump the output. Rules:
@@ -51,7 +53,7 @@ TILT, INTEGRAL, DERIVATIVE = 0, 1, 2
 
 
 @kernel
-def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, pushed):  # type: ignore[no-untyped-def]
+def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, pushed):
     """One sample of loop `i`.
 
     Parameters

@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """The fractional operator s^alpha, |alpha| <= 1, as a chain of first-order filters.
 
 Oustaloup's recursive approximation over [w_b, w_h] with n sections (Oustaloup et al., IEEE TCAS-I 47(1), 2000):
@@ -62,7 +64,7 @@ def sections(alpha: float, band_low: float, band_high: float, period: float) -> 
 
 
 @kernel
-def run_sections(coefficients, states, row, count, value):  # type: ignore[no-untyped-def]
+def run_sections(coefficients, states, row, count, value):
     """Pass one sample through a chain (transposed direct form II).
 
     Parameters

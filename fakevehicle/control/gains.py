@@ -41,7 +41,7 @@ class LoopDefaults:
 
 FOPID_LOOPS = (
     LoopDefaults(
-        "VXY", "horizontal velocity", "1/s", 3.0, 0.6, 1.0, 0.0, 0.1, 0.9, 0.9, 3.0, 6.0, 30.0, (0.05, 75.0), (0, 1)
+        "VXY", "horizontal velocity", "1/s", 3.5, 0.8, 1.0, 0.0, 0.0, 0.9, 0.9, 3.0, 6.0, 30.0, (0.05, 75.0), (0, 1)
     ),
     LoopDefaults(
         "VZ", "vertical velocity", "1/s", 5.0, 1.0, 2.0, 0.0, 0.0, 0.9, 0.9, 3.0, 8.0, 30.0, (0.05, 75.0), (2,)
@@ -84,7 +84,7 @@ def _loop_parameters(loop: LoopDefaults) -> tuple[Parameter, ...]:
 
 
 PARAMETERS: tuple[Parameter, ...] = (
-    Parameter("MPC_XY_P", 1.2, 0, 5, "1/s", "horizontal position gain"),
+    Parameter("MPC_XY_P", 1.5, 0, 5, "1/s", "horizontal position gain"),
     Parameter("MPC_Z_P", 1.2, 0, 5, "1/s", "vertical position gain"),
     Parameter("MPC_XY_VEL_MAX", 12.0, 0.5, 20, "m/s", "highest horizontal speed the position loop asks for"),
     Parameter("MPC_Z_VEL_MAX_UP", 3.0, 0.5, 8, "m/s", "highest climb rate the position loop asks for"),
@@ -92,8 +92,8 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter("MPC_TILTMAX_AIR", 45.0, 5, 70, "deg", "highest tilt"),
     Parameter("MPC_THR_MIN", 0.08, 0, 0.5, "norm", "least collective thrust in flight, of the full"),
     Parameter("MPC_THR_MAX", 0.95, 0.5, 1, "norm", "most collective thrust, of the full"),
-    Parameter("MC_ROLL_P", 9.0, 0, 20, "1/s", "roll attitude gain"),
-    Parameter("MC_PITCH_P", 9.0, 0, 20, "1/s", "pitch attitude gain"),
+    Parameter("MC_ROLL_P", 10.0, 0, 20, "1/s", "roll attitude gain"),
+    Parameter("MC_PITCH_P", 10.0, 0, 20, "1/s", "pitch attitude gain"),
     Parameter("MC_YAW_P", 2.5, 0, 10, "1/s", "yaw attitude gain"),
     Parameter("MC_ROLLRATE_MAX", 220.0, 0, 1800, "deg/s", "highest roll rate asked for"),
     Parameter("MC_PITCHRATE_MAX", 220.0, 0, 1800, "deg/s", "highest pitch rate asked for"),

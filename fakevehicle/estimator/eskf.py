@@ -10,7 +10,7 @@ import numpy as np
 from filterpy.kalman import ExtendedKalmanFilter
 
 from fakevehicle.estimator.measurements import Measurement
-from fakevehicle.estimator.strapdown import ERROR, NOMINAL, inject, propagate
+from fakevehicle.estimator.strapdown import ERROR, NOMINAL, inject, normalised_innovation_squared, propagate
 from fakevehicle.vocabulary import FloatArray
 
 
@@ -64,8 +64,7 @@ class ErrorStateFilter(ExtendedKalmanFilter):  # type: ignore[misc]  # filterpy 
     def fuse(self, measurement: Measurement, gate: float) -> Fusion:
         """Weigh a measurement and, when its NIS is below `gate`, take it in."""
         y, H, R = measurement.innovation, measurement.H, measurement.R
-        S = H @ self.P @ H.T + R
-        nis = float(y @ np.linalg.solve(S, y))
+        nis: float = normalised_innovation_squared(self.P, H, R, y)
         accepted = nis <= gate
         if accepted:
             self.update(y, lambda _: H, _zero, R=R)

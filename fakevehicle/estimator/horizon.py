@@ -1,8 +1,7 @@
 """The estimator: sensors meet the filter in the past, where the latest of them can still be in time.
 
 Theory of operation. GPS arrives 110 ms after it was true. The filter therefore runs on a horizon that lies that far
-behind the newest IMU sample: IMU samples wait in a ring, other samples wait until the horizon reaches the time they were
-true. An output predictor (`strapdown.predict_output`) carries the result to now, at the IMU's rate (PX4's EKF2 has the
+behind the newest IMU sample: IMU samples wait in a ring, others wait until the horizon reaches the time they were true. An output predictor (`strapdown.predict_output`) carries the result to now, at the IMU's rate (PX4's EKF2 has the
 same structure). Before that, on the ground and at rest, one second of samples gives tilt (accelerometer), yaw
 (magnetometer), the barometer's zero, and the first fix gives the origin.
 """
@@ -39,6 +38,7 @@ class EstimatorConfig:
     gyro_bias, accel_bias : of the biases at the start [rad/s], [m/s^2].
     gps_position, gps_velocity, baro, mag : [m], [m/s], [m], [gauss].
     gps_delay_us : age of a fix when it arrives [us].
+    gps_settling_us : position is not called valid before GPS has been accepted for this long [us].
     gate_probability : a true measurement passes its gate with this probability.
     tau_position, tau_velocity : time constants of the output predictor [s].
     """
@@ -54,6 +54,7 @@ class EstimatorConfig:
     baro: float
     mag: float
     gps_delay_us: int
+    gps_settling_us: int
     gate_probability: float
     tau_position: float
     tau_velocity: float
@@ -93,6 +94,7 @@ class Estimator:
         self.origin: Geodetic | None = None
         self.fusions: dict[str, Fusion] = {}
         self._accepted_us: dict[str, int] = {}
+        self._since_us: dict[str, int] = {}
         self._height_zero = 0.0
         self._still: list[FloatArray] = []
         self._still_baro: list[float] = []
@@ -177,6 +179,8 @@ class Estimator:
         fusion = self.filter.fuse(measurement, self._gate[len(measurement.innovation)])
         self.fusions[fusion.sensor] = fusion
         if fusion.accepted:
+            if not self._fresh(fusion.sensor, now_us):
+                self._since_us[fusion.sensor] = now_us
             self._accepted_us[fusion.sensor] = now_us
 
     def _align(self, newest: FloatArray) -> None:
@@ -222,6 +226,7 @@ class Estimator:
     def estimate(self, now_us: int) -> Estimate:
         """What is believed at the newest IMU sample; the arrays are copies."""
         out, aligned = self.out, self.filter is not None
+        settled = now_us - self._since_us.get("gps_position", now_us) >= self._config.gps_settling_us
         P = self.filter.P.copy() if self.filter is not None else np.diag(np.full(15, 1e6))
         sigma = np.sqrt(np.diagonal(P))
         return Estimate(
@@ -237,7 +242,10 @@ class Estimator:
             test_ratio={name: math.sqrt(f.nis / self._gate[f.dof]) for name, f in self.fusions.items()},
             attitude_valid=aligned and float(sigma[:3].max()) < 0.3,
             velocity_valid=aligned and self._fresh("gps_velocity", now_us) and float(sigma[3:6].max()) < 1.0,
-            position_valid=aligned and self._fresh("gps_position", now_us) and float(sigma[6:8].max()) < 3.0,
+            position_valid=aligned
+            and settled
+            and self._fresh("gps_position", now_us)
+            and float(sigma[6:8].max()) < 3.0,
             altitude_valid=aligned and self._fresh("baro", now_us) and float(sigma[8]) < 3.0,
             origin=self.origin,
         )

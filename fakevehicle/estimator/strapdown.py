@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """The nominal state and how the IMU carries it on: kernels.
 
 Nominal state (16,): position_n 0:3, velocity_n 3:6, q_nb (wxyz) 6:10, gyro bias 10:13, accelerometer bias 13:16.
@@ -10,13 +12,15 @@ error-state Kalman filter, ch. 5-6). With the tick's delta angle dT and delta ve
 
 import math
 
+import numpy as np
+
 from fakevehicle.jit import kernel
 
 NOMINAL, ERROR = 16, 15
 
 
 @kernel
-def turn(q, x, y, z):  # type: ignore[no-untyped-def]
+def turn(q, x, y, z):
     """q <- q * Exp(x, y, z) in place, normalised; the rotation vector is in b [rad]. `q` is (4,) wxyz."""
     angle = math.sqrt(x * x + y * y + z * z)
     s = 0.5 - angle * angle / 48.0 if angle < 1e-4 else math.sin(0.5 * angle) / angle
@@ -32,7 +36,7 @@ def turn(q, x, y, z):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def matrix(q):  # type: ignore[no-untyped-def]
+def matrix(q):
     """R_nb of a wxyz quaternion as nine numbers, row by row."""
     w, x, y, z = q[0], q[1], q[2], q[3]
     return (
@@ -49,7 +53,7 @@ def matrix(q):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def propagate(nominal, imu, dt, gravity, noise, F, Q):  # type: ignore[no-untyped-def]
+def propagate(nominal, imu, dt, gravity, noise, F, Q):
     """Carry the nominal state over one tick and write the transition and the process noise of its error.
 
     Parameters
@@ -99,7 +103,37 @@ def propagate(nominal, imu, dt, gravity, noise, F, Q):  # type: ignore[no-untype
 
 
 @kernel
-def inject(nominal, error, P, scratch):  # type: ignore[no-untyped-def]
+def normalised_innovation_squared(P, H, R, y):
+    """NIS = y^T (H P H^T + R)^-1 y by Cholesky's factor: S = L L^T, NIS = |L^-1 y|^2.
+
+    Parameters
+    ----------
+    P : (15, 15).  H : (m, 15).  R : (m, m).  y : (m,), m <= 3.
+    """
+    m = y.shape[0]
+    L = np.zeros((3, 3))
+    w = np.zeros(3)
+    nis = 0.0
+    for i in range(m):
+        for j in range(i + 1):
+            total = R[i, j]
+            for a in range(15):
+                if H[i, a] != 0.0:
+                    for b in range(15):
+                        total += H[i, a] * P[a, b] * H[j, b]
+            for k in range(j):
+                total -= L[i, k] * L[j, k]
+            L[i, j] = math.sqrt(total) if i == j else total / L[j, j]
+        w[i] = y[i]
+        for k in range(i):
+            w[i] -= L[i, k] * w[k]
+        w[i] /= L[i, i]
+        nis += w[i] * w[i]
+    return nis
+
+
+@kernel
+def inject(nominal, error, P, scratch):
     """Move the estimated error into the nominal state and turn P with it: P <- G P G^T, G = I - [dtheta/2]x.
 
     Parameters
@@ -133,7 +167,7 @@ def inject(nominal, error, P, scratch):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def predict_output(out, ring, newest, delayed, imu, nominal, dt, gravity, gains):  # type: ignore[no-untyped-def]
+def predict_output(out, ring, newest, delayed, imu, nominal, dt, gravity, gains):
     """Carry the output over one tick and pull it towards the filter, which sees the past.
 
     The difference between filter and output is taken where both know the state, at the horizon, and a share of it is

@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """Rigid-body dynamics of a quadrotor with rotor lag.
 
 State x (17,): position_n 0:3, velocity_n 3:6, q_nb (wxyz) 6:10, omega_b 10:13, rotor speeds Omega 13:17.
@@ -23,7 +25,7 @@ STATE = 17
 
 
 @kernel
-def derivative(x, command, wind_n, anchor, body, dx):  # type: ignore[no-untyped-def]
+def derivative(x, command, wind_n, anchor, body, dx):
     """x' = f(x, u), written into `dx`.
 
     Parameters
@@ -82,7 +84,7 @@ def derivative(x, command, wind_n, anchor, body, dx):  # type: ignore[no-untyped
 
 
 @kernel
-def step(x, command, wind_n, anchor, body, dt, work):  # type: ignore[no-untyped-def]
+def step(x, command, wind_n, anchor, body, dt, work):
     """One classical Runge-Kutta step of `dt` seconds in place; the quaternion is normalised after it.
 
     Parameters

@@ -1,8 +1,10 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """The ground: a flat plane, four feet on springs, Coulomb friction that really holds.
 
-Normal force of a foot at depth d: N = max(0, k d + c d'). Along the plane each foot hangs on a spring between itself and
-its anchor, the point where it holds; when that spring would pull harder than mu N the foot slips and the anchor follows.
-A smoothed Coulomb law would creep; this one stands still.
+Normal force of a foot at depth d: N = max(0, k d + c d'). Along the plane each foot hangs on a spring between itself
+and its anchor, the point where it holds; when that spring would pull harder than mu N the foot slips and the anchor
+follows. A smoothed Coulomb law would creep; this one stands still.
 """
 
 import math
@@ -11,7 +13,7 @@ from fakevehicle.jit import kernel
 
 
 @kernel
-def foot_force(x, i, anchor, body):  # type: ignore[no-untyped-def]
+def foot_force(x, i, anchor, body):
     """Force of the ground on foot `i` in n and where the foot is.
 
     Returns
@@ -48,7 +50,7 @@ def foot_force(x, i, anchor, body):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def add_contact(x, anchor, body):  # type: ignore[no-untyped-def]
+def add_contact(x, anchor, body):
     """Ground force in n [N] and its torque in b [N m], summed over the feet: fx, fy, fz, tx, ty, tz."""
     fx, fy, fz, mx, my, mz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(4):
@@ -68,8 +70,8 @@ def add_contact(x, anchor, body):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def settle(x, anchor, body):  # type: ignore[no-untyped-def]
-    """Move the anchors of feet that slip or hang in the air; once after every step. Returns whether any foot touches."""
+def settle(x, anchor, body):
+    """Move the anchors of feet that slip or hang in the air, after every step. Returns whether any foot touches."""
     touches = False
     for i in range(4):
         fx, fy, _, rx, ry, _, slip = foot_force(x, i, anchor, body)

@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """Rotor forces and torques in the body frame.
 
     f_i = -k G Omega_i^2 e3 - c_d Omega_i v_perp,i          v_perp,i: in-plane part of v_air + omega x r_i
@@ -10,7 +12,7 @@ from fakevehicle.jit import kernel
 
 
 @kernel
-def add_rotors(x, u, v, w, body):  # type: ignore[no-untyped-def]
+def add_rotors(x, u, v, w, body):
     """Sum over the rotors.
 
     Parameters

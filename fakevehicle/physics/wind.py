@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """Wind: a steady part and Dryden turbulence (MIL-F-8785C, low altitude), discretised exactly.
 
 Below 1000 ft, with h the height in ft and W20 the mean wind at 20 ft:
@@ -21,7 +23,7 @@ FEET = 3.280839895
 
 
 @kernel
-def gust_step(gust, strength, height, airspeed, dt, noise):  # type: ignore[no-untyped-def]
+def gust_step(gust, strength, height, airspeed, dt, noise):
     """Advance the turbulence by `dt` in place.
 
     Parameters

@@ -1,3 +1,5 @@
+# mypy: disable-error-code="no-untyped-def"
+# kernels: numba types them by their arguments, which the docstrings name
 """Gyro and accelerometer at 1 kHz: white noise, a bias that walks, saturation.
 
     gyro  = omega_b + b_g + n_g          accel = R^T (v' - g e3) + b_a + n_a
@@ -32,7 +34,7 @@ DRAWS = 6
 
 
 @kernel
-def read_gyro(x, imu, noise, first):  # type: ignore[no-untyped-def]
+def read_gyro(x, imu, noise, first):
     """The gyro sample at the beginning of a substep, into `imu.gyro_sample`; noise draws first..first+2."""
     for i in range(3):
         sample = x[10 + i] + imu.gyro_bias[i] + imu.gyro_noise * noise[first + i]
@@ -40,7 +42,7 @@ def read_gyro(x, imu, noise, first):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def integrate_imu(before, x, gravity, dt, imu, noise, first):  # type: ignore[no-untyped-def]
+def integrate_imu(before, x, gravity, dt, imu, noise, first):
     """Add one substep to the tick's sums.
 
     Parameters
@@ -66,7 +68,7 @@ def integrate_imu(before, x, gravity, dt, imu, noise, first):  # type: ignore[no
 
 
 @kernel
-def walk_biases(imu, noise, first):  # type: ignore[no-untyped-def]
+def walk_biases(imu, noise, first):
     """One tick of the biases' random walks; six draws from `first`."""
     for i in range(3):
         imu.gyro_bias[i] += imu.gyro_walk * noise[first + i]
