@@ -42,14 +42,23 @@ class Encoder:
         struct.error : a field does not fit.
         """
         message._pack = self._frame
-        packed: bytes = message.pack(type(message).id)  # what we hand to pack() comes back as the first argument of _frame
+        packed: bytes = message.pack(
+            type(message).id
+        )  # what we hand to pack() comes back as the first argument of _frame
         return packed
 
     def _frame(self, message_id: int, crc_extra: int, payload: bytes, force_mavlink1: bool = False) -> bytes:
         """Header, payload without its trailing zeros (but one byte at least), checksum."""
         payload = payload.rstrip(b"\0") or b"\0"
         header = _HEADER.pack(
-            len(payload), 0, 0, self._sequence, self._system_id, AUTOPILOT_COMPONENT, message_id & 0xFFFF, message_id >> 16
+            len(payload),
+            0,
+            0,
+            self._sequence,
+            self._system_id,
+            AUTOPILOT_COMPONENT,
+            message_id & 0xFFFF,
+            message_id >> 16,
         )
         self._sequence = (self._sequence + 1) & 0xFF
         body = header + payload

@@ -1,4 +1,4 @@
-"""A client of the vehicle in memory: speaks with pymavlink's own encoder, hears with its own decoder, and counts time."""
+"""A client of the vehicle in memory: speaks with pymavlink's encoder, hears with its decoder, and counts time."""
 
 import math
 from typing import Any

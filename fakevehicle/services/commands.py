@@ -207,8 +207,9 @@ class Commands:
         number = _whole(command.params[0])
         message = None if number is None else self._streams.build(number)
         if message is None:
-            known = number is not None and self._streams.knows(number)
-            return denied(f"message {number} has no content yet" if known else f"this vehicle has no message {number}")
+            if number is not None and self._streams.knows(number):
+                return judged(f"message {number} has no content yet")
+            return denied(f"this vehicle has no message {number}")
         self._outbox.answer(sender, message)
         return ACCEPTED
 

@@ -20,7 +20,7 @@ def pilot() -> Pilot:
 
 
 def test_take_off_by_command_fly_offboard_and_land(pilot: Pilot) -> None:
-    """GIVEN a standing vehicle WHEN it takes off, flies corners in OFFBOARD and lands THEN truth agrees at each step."""
+    """GIVEN a standing vehicle WHEN it takes off, flies corners in OFFBOARD and lands THEN truth agrees."""
     offset_n = pilot.vehicle.truth.position_n - np.array(
         [getattr(pilot.last("LOCAL_POSITION_NED"), axis) for axis in "xyz"]
     )

@@ -1,0 +1,32 @@
+"""Bad options: one clear line that names the option, what was found and what was expected, and exit code 2."""
+
+import pytest
+from typer.testing import CliRunner
+
+from fakevehicle.cli import app
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--home", "47,8"], ["--home 47,8", "4 numbers", "LAT,LON,ALT,HEADING"]),
+        (["--home", "147,8,0,0"], ["--home", "globe"]),
+        (["--wind", "-1,0"], ["--wind -1,0", "3 numbers", "N,E,D"]),
+        (["--wind", "nan,0,0"], ["--wind", "3 numbers"]),
+        (["--param", "MIS_TAKEOFF_ALT"], ["--param", "NAME=VALUE"]),
+        (["--param", "MIS_TAKEOF_ALT=3"], ["MIS_TAKEOF_ALT", "did you mean MIS_TAKEOFF_ALT?"]),
+        (["--param", "MIS_TAKEOFF_ALT=high"], ["MIS_TAKEOFF_ALT=high"]),
+        (["--param", "MIS_TAKEOFF_ALT=1000"], ["1000", "0.5..100"]),
+        (["--connect", "tcp:127.0.0.1:1"], ["tcp"]),
+        (["--speed", "0"], ["--speed", "more than 0"]),
+        (["--seed", "-4"], ["seed -4"]),
+        (["--airframe", "no_such_frame", "--connect", "udpin:127.0.0.1:0"], ["--airframe no_such_frame"]),
+    ],
+)
+def test_a_bad_option_is_one_line_and_exit_code_2(arguments: list[str], words: list[str]) -> None:
+    result = CliRunner().invoke(app, arguments)
+    assert result.exit_code == 2, result.output
+    assert result.stderr.count("\n") == 1
+    for word in words:
+        assert word in result.stderr
+    assert result.stdout == ""
