@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from planner.errors import KnotError
+from planner.jit import kernel
 
 FloatArray = NDArray[np.float64]
 
@@ -155,6 +156,7 @@ def gram_matrix(knots: FloatArray, n: int, derivative: int, degree: int = DEGREE
     return q
 
 
+@kernel
 def bezier_pieces(control_points: FloatArray, knots: FloatArray) -> FloatArray:
     """The same cubic curve as Bezier pieces, one per span.
 
@@ -170,18 +172,21 @@ def bezier_pieces(control_points: FloatArray, knots: FloatArray) -> FloatArray:
     -------
     (n - 3, 4, 3)
     """
-    n = len(control_points)
-    k = np.arange(DEGREE, n)
-    a, b = knots[k], knots[k + 1]
-    pieces = np.empty((n - DEGREE, 4, control_points.shape[1]))
-    for c, arguments in enumerate(((a, a, a), (a, a, b), (a, b, b), (b, b, b))):
-        d = control_points[k[:, None] + np.arange(-DEGREE, 1)]
-        for r in range(1, DEGREE + 1):
-            for j in range(DEGREE, r - 1, -1):
-                left, right = knots[k - DEGREE + j], knots[k + 1 + j - r]
-                alpha = ((arguments[r - 1] - left) / (right - left))[:, None]
-                d[:, j] = (1.0 - alpha) * d[:, j - 1] + alpha * d[:, j]
-        pieces[:, c] = d[:, DEGREE]
+    n = control_points.shape[0]
+    pieces = np.empty((n - 3, 4, 3))
+    d = np.empty(4)
+    for k in range(3, n):
+        for c in range(4):
+            for axis in range(3):
+                for j in range(4):
+                    d[j] = control_points[k - 3 + j, axis]
+                for r in range(1, 4):
+                    u = knots[k + 1] if r > 3 - c else knots[k]  # the last c of the three arguments are b
+                    for j in range(3, r - 1, -1):
+                        left, right = knots[k - 3 + j], knots[k + 1 + j - r]
+                        alpha = (u - left) / (right - left)
+                        d[j] = (1.0 - alpha) * d[j - 1] + alpha * d[j]
+                pieces[k - 3, c, axis] = d[3]
     return pieces
 
 

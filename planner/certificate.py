@@ -16,10 +16,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from planner.bspline import FloatArray, bezier_pieces
 from planner.distance import solid_distance
+from planner.jit import kernel
 from planner.worlds import World
 
 MARGIN = 1e-11
@@ -40,14 +40,14 @@ class Certificate:
     pieces: int
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def prove(
-    pieces: FloatArray, solids: FloatArray, walls: FloatArray, enough: float, wall_enough: float, tolerance: float
+    pieces: FloatArray, solids: FloatArray, walls: FloatArray, need: float, tolerance: float
 ) -> tuple[float, float, int]:
     """(bound on the distance to solids, bound on the distance to walls, pieces looked at).
 
-    A piece is done when it proves `enough`, or comes within `tolerance` of the least distance seen on the curve itself.
-    Gives up at once where a point of the curve is nearer than `enough` and `enough` is finite.
+    A piece is done when its bounds prove `need` and that to solids comes within `tolerance` of the least distance seen
+    on the curve itself. Gives up, with both bounds -inf, at the first point of the curve that is nearer than `need`.
     """
     stack = np.empty((DEEPEST + 1, 4, 3))
     depth = np.empty(DEEPEST + 1, dtype=np.int64)
@@ -87,9 +87,9 @@ def prove(
                 for k in range(4):
                     plane = min(plane, g0 * (b[k, 0] - c[0]) + g1 * (b[k, 1] - c[1]) + g2 * (b[k, 2] - c[2]))
                 low = min(low, d + max(plane, -reach))
-            if (seen < enough and enough < np.inf) or wall_seen < wall_enough:
+            if seen < need or wall_seen < need:
                 return -np.inf, -np.inf, looked
-            if low >= min(enough, seen - tolerance) and wall_low >= min(wall_enough, wall_seen - tolerance):
+            if low >= max(need, seen - tolerance) and wall_low >= need:
                 bound, wall_bound = min(bound, low), min(wall_bound, wall_low)
                 continue
             if depth[top] >= DEEPEST - 1 or looked >= MOST_PIECES:
@@ -118,13 +118,13 @@ def certify(
     control_points : (n, 3)   [m].
     knots : (n + 4,)          clamped.
     radius : float            [m].
-    full : bool               True finds the least distance to TOLERANCE; False stops at the radius, which is faster.
+    full : bool               True finds the least distance to TOLERANCE; False stops at the radius.
     """
     margin = MARGIN * max(1.0, float(np.abs(world.walls).max()))
     if len(world.solids):
         margin = max(margin, MARGIN * float(np.abs(world.solids[:, 1:]).max()))
     need = radius + 2 * margin
-    pieces = np.ascontiguousarray(bezier_pieces(control_points, knots))
-    low, wall, looked = prove(pieces, world.solids, world.walls, np.inf if full else need, need, TOLERANCE)
+    pieces = bezier_pieces(control_points, knots)
+    low, wall, looked = prove(pieces, world.solids, world.walls, need, TOLERANCE if full else np.inf)
     low, wall = low - margin, wall - margin
     return Certificate(bool(low >= radius and wall >= radius), low, wall, looked)

@@ -28,11 +28,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.bspline import DEGREE, FloatArray, basis, clamped_knots, gram_matrix
 from planner.distance import BOX, CYLINDER, solid_distance
+from planner.jit import kernel
 from planner.limits import Limits
 from planner.worlds import World
 
@@ -44,7 +44,8 @@ WEIGHT = 30.0
 """k: a corner of 0.45 m radius then bends the curve in by about a fifth of c."""
 SOFTEST = 1.5
 """Largest way [m] over which smoothness lets the speed change."""
-MOST_CELLS = 30_000
+FINEST, MOST_CELLS = 2.0, 30_000
+"""Cells a metre along each axis at most, and in all."""
 
 IntArray = NDArray[np.int64]
 
@@ -89,7 +90,7 @@ class CostTerms:
         return self.stretch + self.smoothness + self.obstacle
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _cell_range(s: FloatArray, axis: int, reach: float, grid: Grid) -> tuple[int, int]:
     """First and one past the last cell along an axis that solid s comes within reach of."""
     if s[0] == BOX:
@@ -104,7 +105,7 @@ def _cell_range(s: FloatArray, axis: int, reach: float, grid: Grid) -> tuple[int
     return min(max(low, 0), last), min(max(high, 0), last)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fill_grid(solids: FloatArray, reach: float, grid: Grid, counting: bool) -> None:
     """Two passes over the same cells: count into `starts` (shifted by one), then write into `items`."""
     ny, nz = grid.shape[1], grid.shape[2]
@@ -126,7 +127,7 @@ def fill_grid(solids: FloatArray, reach: float, grid: Grid, counting: bool) -> N
 def build_grid(world: World, reach: float) -> Grid:
     """The grid whose cells list every solid within `reach` [m] of any of their points."""
     extent = world.walls[1] - world.walls[0]
-    per_metre = min(1.0, float(MOST_CELLS / np.prod(np.maximum(extent, 1.0))) ** (1 / 3))
+    per_metre = min(FINEST, float(MOST_CELLS / np.prod(np.maximum(extent, 1.0))) ** (1 / 3))
     shape = np.maximum(np.ceil(extent * per_metre), 1).astype(np.int64)
     starts = np.zeros(int(np.prod(shape)) + 1, dtype=np.int64)
     empty = Grid(world.walls[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64))
@@ -137,7 +138,7 @@ def build_grid(world: World, reach: float) -> Grid:
     return grid._replace(starts=ends)  # the second pass moved each start to its end
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def hinge(e: float, c: float) -> tuple[float, float]:
     """(h, dh/de) of the corrected Eq. 39; e > 0."""
     if e <= c:
@@ -145,7 +146,7 @@ def hinge(e: float, c: float) -> tuple[float, float]:
     return 3.0 * c * e * e - 3.0 * c * c * e + c * c * c, 6.0 * c * e - 3.0 * c * c
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Stretch and smoothness of the free control points x (3 f,), gradient written (3 f,)."""
     f = p.energy.shape[0]
@@ -163,7 +164,7 @@ def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     return cost
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Obstacle term of the free control points x (3 f,), gradient added to (3 f,)."""
     f, c, grid, sample, points, slopes = p.energy.shape[0], p.reach, p.grid, p.sample, p.points, p.slopes
@@ -228,7 +229,7 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     return p.scale * total
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cost_gradient(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """J(x) [m] with its gradient [1] written into `gradient`; x (3 f,) are the free control points, row after row."""
     energy: float = add_energy(x, gradient, p)
@@ -273,14 +274,14 @@ class SplineCost:
         soft = min(limits.speed**2 / limits.acceleration, SOFTEST)  # tau speed
         straight = float(np.linalg.norm(self.ends[1] - self.ends[0]))
         self.distance = max(straight if length is None else length, soft)
-        self._smooth = (soft / (self.distance + soft)) ** 2 * shape.smoothness / self.distance
-        self._stretch = shape.stretch / self.distance
-        whole = self._stretch + self._smooth
-        points = np.repeat(self.ends, (FIXED, n - FIXED), axis=0)
+        self._smooth: FloatArray = (soft / (self.distance + soft)) ** 2 * shape.smoothness / self.distance
+        self._stretch: FloatArray = shape.stretch / self.distance
+        whole: FloatArray = self._stretch + self._smooth
+        points: FloatArray = np.repeat(self.ends, (FIXED, n - FIXED), axis=0)
         free = slice(FIXED, n - FIXED)
-        ends = points.copy()
+        ends: FloatArray = points.copy()
         ends[free] = 0.0
-        linear = whole[free] @ ends
+        linear: FloatArray = whole[free] @ ends
         spans = n - DEGREE
         self.problem = Problem(
             energy=np.ascontiguousarray(whole[free, free]),
@@ -296,13 +297,11 @@ class SplineCost:
             reach=reach,
             scale=weight * self.distance / (reach**2 * spans * SAMPLES),
         )
-        self.inverse_energy: FloatArray = np.linalg.inv(self.problem.energy)
-        self._gradient = np.zeros(self.size)
+        self.inverse_energy: FloatArray = np.asarray(np.linalg.inv(self.problem.energy), dtype=np.float64)
 
-    def harder(self, factor: float) -> None:
-        """Weigh obstacles `factor` times more from now on."""
-        self.weight *= factor
-        self.problem = self.problem._replace(scale=self.problem.scale * factor)
+    def stiffened(self, factor: float) -> Problem:
+        """The same problem with obstacles weighed `factor` times as much."""
+        return self.problem._replace(scale=self.problem.scale * factor)
 
     def __call__(self, x: FloatArray) -> tuple[float, FloatArray]:
         """J [m] and its gradient (3 f,) at the free control points x (3 f,)."""

@@ -8,10 +8,10 @@ the initial metric, so that only obstacles are left to learn; backtracking to Ar
 """
 
 import numpy as np
-from numba import njit
 
 from planner.bspline import FloatArray
 from planner.cost import Problem, SplineCost, cost_gradient
+from planner.jit import kernel
 from planner.search.haoaroa import Haoaroa, Population, move, remember
 
 MEMORY = 6
@@ -20,7 +20,7 @@ LONGEST = 0.7
 """A step moves no control point coordinate farther than this [m]: curves slide around obstacles, they do not jump."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def iterate(p: Population, problem: Problem, first: int, last: int, uniforms: FloatArray) -> None:
     """HAOAROA iterations first, first + 1, ... of last, as many as there are blocks of uniforms (k, n_pop, draws)."""
     for k in range(uniforms.shape[0]):
@@ -30,7 +30,7 @@ def iterate(p: Population, problem: Problem, first: int, last: int, uniforms: Fl
         move(p, first + k, last, uniforms[k], True)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def lbfgs(x: FloatArray, metric: FloatArray, problem: Problem, most: int, tolerance: float) -> tuple[float, int]:
     """Descend from x (3 f,), in place. (cost [m], evaluations made), at most about `most` of them.
 
@@ -112,8 +112,10 @@ def search(optimiser: Haoaroa, cost: SplineCost, block: int, gain: float) -> Non
         before = now
 
 
-def polish(cost: SplineCost, x: FloatArray, most: int = 120, tolerance: float = 1e-4) -> tuple[FloatArray, float, int]:
-    """L-BFGS from x (3 f,): the better point, its cost [m] and the evaluations it took."""
+def polish(
+    cost: SplineCost, x: FloatArray, factor: float = 1.0, most: int = 120, tolerance: float = 1e-4
+) -> tuple[FloatArray, int]:
+    """L-BFGS from x (3 f,), obstacles weighed `factor` times as much: the better point and the evaluations it took."""
     better = np.array(x, dtype=np.float64)
-    value, evaluations = lbfgs(better, cost.inverse_energy, cost.problem, most, tolerance)
-    return better, value, evaluations
+    _, evaluations = lbfgs(better, cost.inverse_energy, cost.stiffened(factor), most, tolerance)
+    return better, evaluations

@@ -13,8 +13,9 @@ A solid is one row of seven float64:
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from planner.jit import kernel
 
 FloatArray = NDArray[np.float64]
 
@@ -23,7 +24,7 @@ WIDTH = 7
 """Numbers a solid takes."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def solid_distance(s: FloatArray, x: float, y: float, z: float) -> tuple[float, float, float, float]:
     """(d, gx, gy, gz): signed distance [m] from a point to solid `s` and its unit (sub)gradient."""
     dx, dy, dz = x - s[1], y - s[2], z - s[3]
@@ -56,7 +57,7 @@ def solid_distance(s: FloatArray, x: float, y: float, z: float) -> tuple[float, 
     return -s[4], 1.0, 0.0, 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nearest_solid(solids: FloatArray, x: float, y: float, z: float) -> tuple[float, int]:
     """(d, index) of the solid with the least signed distance; (inf, -1) when there is none."""
     least, index = np.inf, -1
@@ -67,7 +68,7 @@ def nearest_solid(solids: FloatArray, x: float, y: float, z: float) -> tuple[flo
     return least, index
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def least_distances(solids: FloatArray, points: FloatArray, distances: FloatArray, gradients: FloatArray) -> None:
     """Write into `distances` (m,) and `gradients` (m, 3) the distance of every point (m, 3) to its nearest solid."""
     for i in range(points.shape[0]):

@@ -9,10 +9,10 @@ distance.
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.bspline import FloatArray
 from planner.distance import nearest_solid
+from planner.jit import kernel
 from planner.worlds import World
 
 CELLS = (0.5, 0.25)
@@ -21,7 +21,7 @@ MOST_CELLS = 2_000_000
 _SLACK = 1.02  # on the radius: a guide that just touches leaves the spline no room
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _free(solids: FloatArray, walls: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bool:
     """Whether the segment from a to b keeps the radius: sphere marching with the 1-Lipschitz distance."""
     length = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
@@ -36,7 +36,7 @@ def _free(solids: FloatArray, walls: FloatArray, radius: float, a: FloatArray, b
         t = min(t + max(d - radius, 0.01), length)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def astar(
     solids: FloatArray,
     walls: FloatArray,
@@ -136,7 +136,7 @@ def astar(
     return path
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def pull_taut(solids: FloatArray, walls: FloatArray, radius: float, path: FloatArray) -> FloatArray:
     """The corners (m, 3) left when every point that the one after next can be seen past is dropped."""
     kept = np.empty_like(path)

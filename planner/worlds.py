@@ -124,7 +124,7 @@ class World:
         object.__setattr__(self, "walls", np.array([low, high], dtype=np.float64))
 
     def distance(self, points: FloatArray) -> FloatArray:
-        """Signed distance (m,) [m] from points (m, 3) to the nearest obstacle, negative inside; inf when there is none."""
+        """Signed distance (m,) [m] of points (m, 3) to the nearest obstacle, negative inside; inf without any."""
         return self.distance_gradient(points)[0]
 
     def distance_gradient(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -34,8 +34,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from planner.jit import kernel
 
 FloatArray = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ def draws(n_dim: int) -> int:
     return 2 * n_dim + _EXTRA
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def remember(p: Population) -> None:
     """Keep each candidate's best and adapt its step, once `costs` and `gradients` are filled in."""
     for i in range(p.costs.shape[0]):
@@ -79,7 +80,7 @@ def remember(p: Population) -> None:
         p.previous[i] = p.costs[i]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def move_traits(p: Population, explore: bool, best: int, uniforms: FloatArray) -> None:
     """AOA's density, volume and acceleration; collisions with a random material, later with the best."""
     n_pop = p.costs.shape[0]
@@ -97,7 +98,7 @@ def move_traits(p: Population, explore: bool, best: int, uniforms: FloatArray) -
         p.traits[i, 2] = 0.1 + 0.9 * (raw[i] - low) / (high - low) if high > low else 1.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: bool) -> None:
     """One iteration's move of every candidate; t = 1 .. last. The one statement of the update rule."""
     n_pop, n_dim = p.positions.shape

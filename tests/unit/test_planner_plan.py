@@ -1,0 +1,214 @@
+"""Whole plans: judged by dense sampling, scipy and arithmetic of this file, not by the planner's own proofs."""
+
+import math
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy.interpolate import BSpline
+
+import planner
+from planner import Box, Cylinder, Limits, Plan, Sphere, World, plan
+from planner.jit import _STAMP
+
+LIMITS = Limits(speed=3.0, acceleration=6.0, jerk=60.0)
+BOUNDS = ((0, 0, 0), (20, 20, 4))
+START, GOAL, RADIUS = (1.0, 10.0, 1.5), (19.0, 10.0, 1.5), 0.3
+
+WORLDS = {
+    "empty": [],
+    "wall": [Box((9, 6, 0), (10, 15, 4)), Cylinder(centre=(5, 5), radius=0.4, z=(0, 4))],
+    "gap": [Box((9.75, 0, 0), (10.25, 12.3, 4)), Box((9.75, 13.7, 0), (10.25, 20, 4))],
+    "over": [Box((9, 0, 0), (10, 20, 2.5))],
+    "L": [Box((9.5, 6, 0), (10.5, 14, 4)), Box((5, 13, 0), (9.5, 14, 4))],
+    "U": [Box((6, 6, 0), (12, 7, 4)), Box((6, 13, 0), (12, 14, 4)), Box((11, 7, 0), (12, 13, 4))],
+    "balls": [Sphere((5, 10, 1.5), 1.2), Sphere((10, 9, 1.5), 1.5), Sphere((14.5, 11, 2), 1.4)],
+    "baffles": [Box((5, 0, 0), (5.5, 17, 4)), Box((10, 3, 0), (10.5, 20, 4)), Box((15, 0, 0), (15.5, 17, 4))],
+}
+
+
+def box_distance(p: np.ndarray, box: Box) -> np.ndarray:
+    q = np.maximum(np.array(box.lower) - p, p - np.array(box.upper))
+    return np.linalg.norm(np.maximum(q, 0), axis=1) + np.minimum(q.max(axis=1), 0)
+
+
+def cylinder_distance(p: np.ndarray, c: Cylinder) -> np.ndarray:
+    radial = np.hypot(p[:, 0] - c.centre[0], p[:, 1] - c.centre[1]) - c.radius
+    axial = np.maximum(c.z[0] - p[:, 2], p[:, 2] - c.z[1])
+    outside = np.hypot(np.maximum(radial, 0), np.maximum(axial, 0))
+    return outside + np.minimum(np.maximum(radial, axial), 0)
+
+
+def sampled_clearance(p: Plan, obstacles: list) -> float:
+    spline = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)
+    points = spline(np.linspace(0, p.trajectory.duration, 20001)[:-1])
+    assert (points > np.array(BOUNDS[0]) + RADIUS).all()
+    assert (points < np.array(BOUNDS[1]) - RADIUS).all()
+    least = math.inf
+    for o in obstacles:
+        if isinstance(o, Box):
+            d = box_distance(points, o)
+        elif isinstance(o, Cylinder):
+            d = cylinder_distance(points, o)
+        else:
+            d = np.linalg.norm(points - o.centre, axis=1) - o.radius
+        least = min(least, float(d.min()))
+    return least - RADIUS
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_a_plan_is_clear_within_limits_and_at_rest_at_its_ends(name: str) -> None:
+    p = plan(World(BOUNDS, WORLDS[name]), START, GOAL, LIMITS, RADIUS)
+    assert p.certified
+    clearance = sampled_clearance(p, WORLDS[name])
+    assert 0 <= p.clearance <= clearance
+    assert name == "empty" or p.clearance >= clearance - 2e-3
+    spline = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)
+    t = np.linspace(0, p.trajectory.duration, 5001)[:-1]
+    for k, limit in ((1, LIMITS.speed), (2, LIMITS.acceleration), (3, LIMITS.jerk)):
+        assert np.linalg.norm(spline.derivative(k)(t), axis=1).max() <= limit
+    for time, place in ((0.0, START), (p.trajectory.duration, GOAL)):
+        state = p.trajectory.state(time)
+        np.testing.assert_allclose(state.position, place, atol=1e-12)
+        np.testing.assert_allclose([state.velocity, state.acceleration], 0.0, atol=1e-9)
+    steps = np.diff(spline(np.linspace(0, p.trajectory.duration, 20001)[:-1]), axis=0)
+    assert p.length == pytest.approx(np.linalg.norm(steps, axis=1).sum(), rel=1e-4)
+
+
+def test_with_nothing_in_the_way_the_path_is_straight_and_the_clearance_infinite() -> None:
+    p = plan(World(BOUNDS), START, GOAL, LIMITS, RADIUS)
+    assert p.length == pytest.approx(18.0, abs=1e-3)
+    assert p.clearance == math.inf
+    assert p.report.curvature_max < 1e-3
+
+
+def test_the_way_round_a_wall_is_hardly_longer_than_a_string_pulled_around_it() -> None:
+    p = plan(World(BOUNDS, [Box((9, 6, 0), (10, 16, 4))]), START, GOAL, LIMITS, RADIUS)
+    aside = (
+        4 + RADIUS
+    )  # the wall's near end is 4 m off the line; rounding its corners makes the string a little shorter
+    assert p.length <= 1.01 * (math.hypot(8, aside) + 1 + math.hypot(9, aside))
+
+
+def test_a_maze_that_no_bow_passes_is_solved_with_the_search_graphs_help() -> None:
+    p = plan(World(BOUNDS, WORLDS["baffles"]), START, GOAL, LIMITS, RADIUS)
+    assert p.certified
+    assert p.length > 30
+
+
+def test_the_frame_may_have_z_pointing_down() -> None:
+    flip = World(((0, 0, -4), (20, 20, 0)), [Box((9, 0, -2.5), (10, 20, 0)), Cylinder((5, 10), 0.5, (-4, 0))])
+    p = plan(flip, (1, 10, -1.5), (19, 10, -1.5), LIMITS, RADIUS)
+    assert p.certified
+    assert p.trajectory.position(np.linspace(0, p.trajectory.duration, 99))[:, 2].min() < -2.5
+
+
+def test_the_same_seed_gives_the_same_plan_to_the_last_bit() -> None:
+    world = World(BOUNDS, WORLDS["U"])
+    a, b = (plan(world, START, GOAL, LIMITS, RADIUS, seed=5) for _ in range(2))
+    assert a.trajectory == b.trajectory
+    assert (a.length, a.clearance, a.report) == (b.length, b.clearance, b.report)
+
+
+def test_a_plan_survives_pickling() -> None:
+    p = plan(World(BOUNDS, WORLDS["wall"]), START, GOAL, LIMITS, RADIUS)
+    assert pickle.loads(pickle.dumps(p)) == p
+
+
+def test_the_report_counts_the_work_and_describes_the_shape() -> None:
+    p = plan(World(BOUNDS, WORLDS["wall"]), START, GOAL, LIMITS, RADIUS)
+    t = (np.arange(100000) + 0.5) / 100000 * p.trajectory.duration
+    squares = (p.trajectory.jerk(t) ** 2).sum(axis=1)
+    assert p.report.jerk_integral == pytest.approx(squares.mean() * p.trajectory.duration, rel=1e-3)
+    assert p.report.evaluations >= 20 * p.report.iterations > 0
+    assert 1 <= p.report.seeds_certified <= p.report.seeds_tried
+    assert p.method == "haoaroa"
+    assert p.cpu_ms > 0
+
+
+@pytest.mark.parametrize("distance", [0.0, 1e-9, 0.01, 1.0])
+def test_a_short_hop_or_none_is_planned_too(distance: float) -> None:
+    p = plan(World(BOUNDS), START, (1.0 + distance, 10.0, 1.5), LIMITS, RADIUS)
+    assert p.certified
+    assert p.length == pytest.approx(distance, abs=1e-6)
+    assert p.trajectory.duration < 2.0
+
+
+def test_straight_up_is_a_direction_like_any_other() -> None:
+    p = plan(World(((0, 0, 0), (5, 5, 30)), [Sphere((2.5, 2.5, 12), 1)]), (2.5, 2.5, 1), (2.5, 2.5, 25), LIMITS, RADIUS)
+    assert p.certified
+    assert 24.0 < p.length < 24.5
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "error", "numbers", "words"),
+    [
+        ((9.8, 10, 1.5), GOAL, planner.StartInCollision, (1, "box", -0.2), "start .* 0.200 m inside obstacle 1 .box"),
+        (START, (5, 5.5, 1.5), planner.GoalInCollision, (0, "cylinder", 0.1), "goal .* 0.100 m from obstacle 0"),
+    ],
+)
+def test_an_end_in_an_obstacle_says_which_and_by_how_much(start, goal, error, numbers, words) -> None:
+    world = World(BOUNDS, [Cylinder((5, 5), 0.4, (0, 4)), Box((9, 6, 0), (10, 15, 4))])
+    with pytest.raises(error, match=words) as caught:
+        plan(world, start, goal, LIMITS, RADIUS)
+    e = pickle.loads(pickle.dumps(caught.value))
+    assert (e.obstacle, e.kind) == numbers[:2]
+    assert e.distance == pytest.approx(numbers[2])
+    assert e.shortfall == pytest.approx(RADIUS - numbers[2])
+    assert str(e) == str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "error", "axis", "side", "distance"),
+    [
+        (START, (19, 10, 4.5), planner.GoalOutOfBounds, 2, "upper", -0.5),
+        ((-1, 10, 1.5), GOAL, planner.StartOutOfBounds, 0, "lower", -1.0),
+        ((1, 10, 0.1), GOAL, planner.StartOutOfBounds, 2, "lower", 0.1),
+    ],
+)
+def test_an_end_outside_says_beyond_which_bound_and_by_how_much(start, goal, error, axis, side, distance) -> None:
+    with pytest.raises(error) as caught:
+        plan(World(BOUNDS), start, goal, LIMITS, RADIUS)
+    e = pickle.loads(pickle.dumps(caught.value))
+    assert (e.axis, e.side) == (axis, side)
+    assert e.distance == pytest.approx(distance)
+    assert f"{side} {'xyz'[axis]} bound" in str(e)
+
+
+def test_a_closed_room_is_not_planned_out_of() -> None:
+    walls = [Box((9, 0, 0), (10, 20, 4))]
+    with pytest.raises(planner.NoPathFound, match="lacks") as caught:
+        plan(World(BOUNDS, walls), START, GOAL, LIMITS, RADIUS)
+    e = pickle.loads(pickle.dumps(caught.value))
+    assert e.tried > 0
+    assert e.shortfall >= RADIUS
+
+
+def test_a_gap_narrower_than_the_vehicle_is_not_passed() -> None:
+    tight = [Box((9.75, 0, 0), (10.25, 9.71, 4)), Box((9.75, 10.29, 0), (10.25, 20, 4))]
+    with pytest.raises(planner.NoPathFound) as caught:
+        plan(World(BOUNDS, tight), START, GOAL, LIMITS, RADIUS)
+    assert caught.value.shortfall >= 0.01 - 1e-9
+
+
+def test_misuse_is_a_value_error_that_names_what_exists() -> None:
+    with pytest.raises(ValueError, match="expected one of haoaroa, found 'astar'"):
+        plan(World(BOUNDS), START, GOAL, LIMITS, RADIUS, method="astar")
+    with pytest.raises(ValueError, match="radius"):
+        plan(World(BOUNDS), START, GOAL, LIMITS, -0.1)
+    with pytest.raises(ValueError, match="goal: expected three finite numbers"):
+        plan(World(BOUNDS), START, (1, 2, math.nan), LIMITS, RADIUS)
+
+
+def test_importing_the_planner_brings_no_mavlink_and_no_plotting() -> None:
+    code = "import sys, planner; print([m for m in sys.modules if m.startswith(('pymavlink', 'matplotlib', 'mcap'))])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_kernels_are_stamped_with_the_whole_package() -> None:
+    from planner.cost import cost_gradient
+
+    assert cost_gradient._cache._cache_file._source_stamp == _STAMP
