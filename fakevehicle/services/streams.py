@@ -6,7 +6,7 @@ that the streams of one rate do not all fall into one tick.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
 
 from fakevehicle.codec import Message
 from fakevehicle.config import LinkConfig, Profile
@@ -65,13 +65,6 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
 }
 
 
-@dataclass(slots=True)
-class _Stream:
-    message_id: int
-    interval_us: int
-    due_us: int
-
-
 class Streams:
     """The schedule of all links.
 
@@ -88,15 +81,15 @@ class Streams:
         self._outbox = outbox
         self._builders = builders
         self._profile = {link.name: link.profile for link in links}
-        self._tables: dict[str, dict[int, _Stream]] = {}
-        self._next_us: dict[str, int] = {}
+        self._intervals_us: dict[str, dict[int, int]] = {}
+        self._queues: dict[str, list[tuple[int, int]]] = {}  # heaps of (due_us, message id)
         for link in links:
-            table: dict[int, _Stream] = {}
-            for place, (message_id, rate) in enumerate(RATES_HZ[link.profile].items()):
-                interval = round(1e6 / rate)
-                table[message_id] = _Stream(message_id, interval, place * SHORTEST_US % interval)
-            self._tables[link.name] = table
-            self._next_us[link.name] = 0
+            intervals = {number: round(1e6 / rate) for number, rate in RATES_HZ[link.profile].items()}
+            self._intervals_us[link.name] = intervals
+            self._queues[link.name] = [
+                (place * SHORTEST_US % interval, number) for place, (number, interval) in enumerate(intervals.items())
+            ]
+            heapify(self._queues[link.name])
 
     def knows(self, message_id: int) -> bool:
         """Whether the vehicle has this message at all."""
@@ -111,8 +104,7 @@ class Streams:
         """Interval on one link [us]; -1 switched off, 0 not a message of this vehicle."""
         if message_id not in self._builders:
             return 0
-        stream = self._tables[link].get(message_id)
-        return -1 if stream is None else stream.interval_us
+        return self._intervals_us[link].get(message_id, -1)
 
     def set_interval(self, link: str, message_id: int, interval_us: int, now_us: int) -> bool:
         """Set one link's interval [us]: below 0 off, 0 the profile's own. False: the vehicle has no such message.
@@ -121,34 +113,27 @@ class Streams:
         """
         if message_id not in self._builders:
             return False
-        table = self._tables[link]
         if interval_us == 0 or (interval_us < 0 and message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT):
             rate = RATES_HZ[self._profile[link]].get(message_id, 0.0)
             interval_us = round(1e6 / rate) if rate else -1
+        queue = self._queues[link] = [entry for entry in self._queues[link] if entry[1] != message_id]
         if interval_us < 0:
-            table.pop(message_id, None)
-            return True
-        interval_us = min(max(interval_us, SHORTEST_US), LONGEST_US)
-        table[message_id] = _Stream(message_id, interval_us, now_us)
-        self._next_us[link] = now_us
+            self._intervals_us[link].pop(message_id, None)
+        else:
+            self._intervals_us[link][message_id] = min(max(interval_us, SHORTEST_US), LONGEST_US)
+            queue.append((now_us, message_id))
+        heapify(queue)
         return True
 
     def step(self, now_us: int) -> None:
         """Send what is due."""
-        for link, table in self._tables.items():
-            if now_us < self._next_us[link]:
-                continue
-            next_us = now_us + LONGEST_US
-            for stream in table.values():
-                due_us = stream.due_us
-                if due_us <= now_us:
-                    message = self._builders[stream.message_id]()
-                    if message is not None:
-                        self._outbox.broadcast(link, message)
-                    due_us += stream.interval_us
-                    if due_us <= now_us:
-                        due_us = now_us + stream.interval_us
-                    stream.due_us = due_us
-                if due_us < next_us:
-                    next_us = due_us
-            self._next_us[link] = next_us
+        for link, queue in self._queues.items():
+            intervals_us = self._intervals_us[link]
+            while queue and queue[0][0] <= now_us:
+                due_us, number = heappop(queue)
+                message = self._builders[number]()
+                if message is not None:
+                    self._outbox.broadcast(link, message)
+                interval_us = intervals_us[number]
+                due_us += interval_us
+                heappush(queue, (due_us if due_us > now_us else now_us + interval_us, number))

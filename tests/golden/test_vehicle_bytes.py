@@ -1,7 +1,7 @@
 """Bytes worked by hand from the MAVLink definition (common.xml, minimal.xml), which no encoder of ours has seen.
 
 A MAVLink 2 packet is FD, payload length, incompat flags, compat flags, sequence, system, component, message id (three
-bytes, little endian), payload, CRC-16/MCRF4XX (X.25) over all but the FD and then CRC_EXTRA. Fields stand in the payload by
+bytes, little endian), payload, CRC-16/MCRF4XX (X.25) over all but the FD and then CRC_EXTRA. Fields stand by
 size, largest first, otherwise in the order of the definition; trailing zero bytes are cut.
 """
 
