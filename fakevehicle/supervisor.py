@@ -1,7 +1,8 @@
 """Who may do what, and what is flown now: the modes' tables brought to life.
 
-`Supervisor.ask` is how peers' wishes come in, `Supervisor.step` turns the mode into one setpoint a tick. Everything
-is judged on the estimate. What people should know comes out in `notes`, as (MAV_SEVERITY, text).
+`Supervisor.ask` is how peers' wishes come in; `Supervisor.look` notices at 50 Hz what happened; `Supervisor.setpoint`
+turns the mode into one setpoint a tick. Everything is judged on the estimate. What people should know comes out in
+`notes`, as (MAV_SEVERITY, text).
 """
 
 import math
@@ -190,14 +191,14 @@ class Supervisor:
 
     # What happens by itself
 
-    def step(self, now_us: int, estimate: Estimate, thrust: float) -> Setpoint | None:
-        """One tick: notice what happened, then say where to fly. None: motors at rest, or idling when armed.
+    def look(self, now_us: int, estimate: Estimate, thrust: float) -> None:
+        """Notice what happened since the last look; to be called at 50 Hz.
 
         Parameters
         ----------
         now_us : [us].
         estimate : the estimator's newest.
-        thrust : collective the loops commanded in the last tick, 0..1.
+        thrust : collective the loops command now, 0..1.
         """
         self._estimate = estimate
         if self.home is None and estimate.position_valid and estimate.altitude_valid:
@@ -209,11 +210,15 @@ class Supervisor:
             self._flown = self._flown or self.airborne
             self._climb_us = None
             self.notes.append((INFO, "Takeoff detected" if self.airborne else "Landing detected"))
-        if not self.armed:
+        if self.armed:
+            self._watch_stream(now_us)
+            self._watch_ground(now_us)
+
+    def setpoint(self, now_us: int) -> Setpoint | None:
+        """Where to fly in this tick. None: motors at rest, or idling when armed."""
+        if not self.armed or self._estimate is None:
             return None
-        self._watch_stream(now_us)
-        self._watch_ground(now_us)
-        return self._setpoint(now_us, estimate) if self.armed else None
+        return self._setpoint(now_us, self._estimate)
 
     def _watch_stream(self, now_us: int) -> None:
         """Lose OFFBOARD when the setpoints stop, and regain it when they return."""

@@ -3,9 +3,10 @@
 The order of work in a tick
 ---------------------------
 1. Every datagram is framed, and every packet that is addressed to us is handed to its service. Services answer into
-   the outbox at once and steer the supervisor; they see the estimate of the tick before.
-2. The supervisor notices what happened (takeoff, landing, a lost stream) and turns the mode into one setpoint.
-3. The flight stack flies that setpoint for 4 ms: physics, sensors, estimator, loops.
+   the outbox at once and steer the supervisor.
+2. The supervisor turns the mode into one setpoint, and the flight stack flies it for 4 ms: physics, sensors, estimator,
+   loops.
+3. Every fifth tick the supervisor looks at the new estimate and notices what happened (takeoff, landing, stream lost).
 4. A change of mode, arming or landed state is told at once; then come the streams that are due.
 
 `step` never raises for what a peer sent. The vehicle obeys every peer on its own links that addresses system
@@ -38,8 +39,9 @@ from wire.framing import Framer
 
 TICK_US = 4_000
 READ_ONLY = frozenset({"MAV_SYS_ID"})
-THRUST_TICKS = 5
-"""The thrust is looked at every fifth tick only: reading the loops' status costs as much as a whole tick's messages."""
+LOOK_US = 20_000
+"""The supervisor looks at the estimate every fifth tick, when most streams are due too: reading it costs a third of a
+tick's physics."""
 MAX_PACKETS = 2048
 """Most packets of one tick; what is more is dropped and counted."""
 
@@ -120,8 +122,6 @@ class Vehicle:
         self._handlers = self._routes()
         self._foreign = self._ignored = self._flooded = 0
         self._entered = 0
-        self._ticks = 0
-        self._thrust = 0.0
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
         self._now_us: int | None = None
@@ -177,21 +177,22 @@ class Vehicle:
         if self._now_us is not None and now_us != self._now_us + TICK_US:
             raise ValueError(f"now_us {now_us}: expected {self._now_us + TICK_US}, one tick after the last")
         self._now_us = now_us
-        telemetry, stack, supervisor = self._telemetry, self._stack, self._supervisor
-        telemetry.now_us = now_us
+        self._telemetry.now_us = now_us
+        stack, supervisor = self._stack, self._supervisor
         if inputs:
             self._take(inputs)
-        setpoint = supervisor.step(now_us, telemetry.estimate, self._thrust)
+        setpoint = supervisor.setpoint(now_us)
         if supervisor.entered != self._entered:
             self._entered = supervisor.entered
             stack.reset_control()
         stack.tick(now_us, setpoint, supervisor.armed)
-        telemetry.estimate = stack.estimate
-        self._ticks += 1
-        if self._ticks % THRUST_TICKS == 0:
-            self._thrust = stack.control.thrust
-            self._battery.draw(self._thrust, supervisor.armed, THRUST_TICKS * TICK_US * 1e-6)
-        self._tell_changes()
+        looking = now_us % LOOK_US == 0
+        if looking:
+            thrust = stack.control.thrust
+            self._battery.draw(thrust, supervisor.armed, LOOK_US * 1e-6)
+            supervisor.look(now_us, stack.estimate, thrust)
+        if looking or inputs:
+            self._tell_changes()
         self._parameter_service.step()
         self._streams.step(now_us)
         return self._outbox.take()
@@ -277,7 +278,7 @@ class Vehicle:
                     self._outbox.everywhere(maybe)
 
     def _origin(self) -> Geodetic | None:
-        return self._telemetry.estimate.origin
+        return self._stack.estimate.origin
 
     def _warn(self, text: str) -> None:
         self._outbox.text(mavlink.MAV_SEVERITY_WARNING, text)

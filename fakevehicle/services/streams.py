@@ -1,8 +1,8 @@
 """Telemetry streams: which message goes out on which link how often, and MESSAGE_INTERVAL's two commands.
 
 Every link has its own table, started from its profile. A stream's due time advances by its interval, so that rates hold
-on average although a tick is 4 ms; a stream that fell behind skips what it missed. First due times are spread out, so
-that the streams of one rate do not all fall into one tick.
+on average although a tick is 4 ms; a stream that fell behind skips what it missed. All begin together, so that what is
+told in one tick is told of one estimate.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -86,10 +86,7 @@ class Streams:
         for link in links:
             intervals = {number: round(1e6 / rate) for number, rate in RATES_HZ[link.profile].items()}
             self._intervals_us[link.name] = intervals
-            self._queues[link.name] = [
-                (place * SHORTEST_US % interval, number) for place, (number, interval) in enumerate(intervals.items())
-            ]
-            heapify(self._queues[link.name])
+            self._queues[link.name] = [(0, number) for number in sorted(intervals)]
 
     def knows(self, message_id: int) -> bool:
         """Whether the vehicle has this message at all."""

@@ -17,7 +17,7 @@ from fakevehicle.flight import FlightStack
 from fakevehicle.modes import Mode
 from fakevehicle.places import Places
 from fakevehicle.supervisor import Supervisor
-from fakevehicle.vocabulary import FloatArray
+from fakevehicle.vocabulary import Estimate, FloatArray
 from wire.dialect import mavlink
 
 G = 9.80665
@@ -56,7 +56,7 @@ _FLAG = mavlink
 class Telemetry:
     """Builds messages from the vehicle's parts; `builders` is the table the streams use.
 
-    `now_us` and `estimate` are set by the vehicle at each tick.
+    `now_us` is set by the vehicle at each tick.
     """
 
     def __init__(
@@ -68,7 +68,11 @@ class Telemetry:
         self._battery = battery
         self._places = places
         self.now_us = 0
-        self.estimate = stack.estimate
+
+    @property
+    def estimate(self) -> Estimate:
+        """The estimator's newest; made once a tick at most."""
+        return self._stack.estimate
 
     @property
     def builders(self) -> Mapping[int, Callable[[], Message | None]]:

@@ -364,8 +364,7 @@ def test_a_lost_stream_holds_and_its_return_resumes(pilot: Pilot) -> None:
     assert pilot.texts()[-1].startswith("Failsafe activated")
     pilot.run(5.0)
     pilot.send(position(0, 0, -2.5))
-    pilot.tick()
-    assert pilot.mode == OFFBOARD
+    assert pilot.until(lambda: pilot.mode == OFFBOARD, 1) <= 0.024
 
 
 @pytest.mark.parametrize(("action", "mode"), [(3, RTL), (4, LAND), (5, HOLD)])
