@@ -20,6 +20,7 @@ from planner.jit import kernel
 FloatArray = NDArray[np.float64]
 
 DEGREE = 3
+_GAUSS = np.polynomial.legendre.leggauss(12)
 
 
 def clamped_knots(n: int, duration: float = 1.0, degree: int = DEGREE) -> FloatArray:
@@ -208,7 +209,7 @@ def arc_length(control_points: FloatArray, knots: FloatArray) -> float:
     Gauss-Legendre with 12 nodes a span. Exact for straight pieces; elsewhere the error falls faster than any power of
     the span, and is far below 1e-6 m for the curves planned here.
     """
-    nodes, weights = np.polynomial.legendre.leggauss(12)
+    nodes, weights = _GAUSS
     breaks = np.unique(knots)
     half = np.diff(breaks)[:, None] / 2
     velocity = evaluate(control_points, knots, (breaks[:-1, None] + half * (1 + nodes)).ravel(), derivative=1)

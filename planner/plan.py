@@ -6,7 +6,7 @@ When none of the fan can be proved, a coarse search graph gives the way round an
 is certified or it is not a result: `NoPathFound` is raised instead.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -178,8 +178,8 @@ class _Search:
         n = int(np.clip(round(length / SPACING) + DEGREE, FEWEST, MOST))
         return SplineCost(self.world, self.start, self.goal, n, self.limits, self.reach, length=length)
 
-    def search(self, cost: SplineCost) -> list[FloatArray]:
-        """HAOAROA from the fan; its distinct best first, then the fan itself."""
+    def search(self, cost: SplineCost) -> Iterator[FloatArray]:
+        """HAOAROA from the fan; the best of each candidate, best first, those near a better one left out."""
         seeds = fan(self.start, self.goal, self.lower, self.upper, cost.n, POPULATION, self.generator)
         f = cost.n - 2 * FIXED
         optimiser = Haoaroa(
@@ -193,14 +193,13 @@ class _Search:
         search(optimiser, cost, BLOCK, GAIN)
         self.evaluations += optimiser.evaluations
         self.iterations += optimiser.iteration
-        elites: list[FloatArray] = []
-        for i in np.argsort(optimiser.population.best_costs, kind="stable"):
-            x = optimiser.population.best_positions[i]
-            if all(np.abs(x - e).max() > self.reach for e in elites):
-                elites.append(x.copy())
-        return elites
+        order = np.argsort(optimiser.population.best_costs, kind="stable")
+        ranked = optimiser.population.best_positions[order]
+        for i in range(len(ranked)):
+            if i == 0 or (np.abs(ranked[:i] - ranked[i]).max(axis=1) > self.reach).all():
+                yield ranked[i].copy()
 
-    def prove_all(self, seeds: Sequence[FloatArray], cost: SplineCost) -> list[_Proved]:
+    def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost) -> list[_Proved]:
         """Polish the seeds, most promising first, and keep what can be proved; stop after ELITES once something is."""
         found: list[_Proved] = []
         for k, seed in enumerate(seeds):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,7 +36,7 @@ def save_plot(
     limits : drawn as a line over the speed and used to scale acceleration, when given.
     radius : the halo that the curve keeps clear of, drawn around every obstacle [m].
     names : of the axes. A name starting with "-" turns that axis upside down: in a north-east-down frame ("north",
-        "east", "-altitude") draws altitude upward.
+        "east", "-altitude") draws altitude upward. When the first is "north", north is drawn up and the second right.
 
     Raises
     ------
@@ -50,6 +50,9 @@ def save_plot(
     points, velocity, acceleration = trajectory.position(t), trajectory.velocity(t), trajectory.acceleration(t)
     signs = np.array([-1.0 if name.startswith("-") else 1.0 for name in names])
     labels = [name.removeprefix("-") for name in names]
+    right, up = (1, 0) if labels[0] == "north" else (0, 1)
+    view = np.zeros((3, 2))  # takes a point to the page: points @ view
+    view[right, 0], view[up, 1] = signs[right], signs[up]
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
 
     figure = Figure(figsize=(11.0, 6.2), dpi=130, layout="constrained")
@@ -58,20 +61,22 @@ def save_plot(
     top = figure.add_subplot(grid[:, 0])
     height, speed = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
 
-    _draw_top(top, world, points, signs, radius)
-    top.set(xlabel=f"{labels[0]} [m]", ylabel=f"{labels[1]} [m]")
+    _draw_top(top, world, points, view, radius)
+    top.set(xlabel=f"{labels[right]} [m]", ylabel=f"{labels[up]} [m]")
     clearance, nearest = world.distance(points), 0
     if world.obstacles:
         nearest = int(np.argmin(clearance))
-        _mark_clearance(top, world, points[nearest], signs, plan.clearance)
+        _mark_nearest(top, world, points[nearest], view)
+        near = f"nearest obstacle {clearance[nearest]:.2f} m away; proved: radius + {plan.clearance:.3f} m"
+        top.set_title(near, loc="left", fontsize=10, color=ACCENT)
     proved = "proved clear" if plan.certified else "NOT PROVED"
-    top.set_title(
-        f"{plan.method}: {plan.length:.2f} m in {trajectory.duration:.2f} s, {proved}", loc="left", fontsize=11
-    )
+    title = f"{plan.method}: {plan.length:.2f} m in {trajectory.duration:.2f} s, {proved}"
+    figure.suptitle(title, x=0.01, ha="left", fontsize=12)
 
     low, high = sorted(signs[2] * world.walls[:, 2])
-    for from_m, until_m, bottom, ceiling in _below(world, points, gone, signs[2]):
-        height.fill_between([from_m, until_m], bottom, ceiling, color=SOLID, alpha=0.55, lw=0)
+    for solid in world.obstacles:
+        bottom, ceiling = _slice(solid, points)
+        height.fill_between(gone, signs[2] * bottom, signs[2] * ceiling, color=SOLID, alpha=0.55, lw=0)
     height.plot(gone, signs[2] * points[:, 2], color=PATH, lw=2)
     height.axhline(low, color="black", lw=1)
     height.axhline(high, color="black", lw=1)
@@ -87,19 +92,19 @@ def save_plot(
     if limits is not None:
         speed.axhline(limits.speed, color=PATH, lw=1, ls="--", label=f"limit {limits.speed:g} m/s")
         speed.axhline(limits.acceleration, color="#7f8c8d", lw=1, ls="--", label=f"limit {limits.acceleration:g} m/s²")
-    ceiling = max(float(v.max()), float(a.max()), *((limits.speed, limits.acceleration) if limits else (0.1,)))
-    speed.set(xlabel="time [s]", xlim=(0, trajectory.duration), ylim=(0, 1.3 * ceiling))
+    highest = max(float(v.max()), float(a.max()), *((limits.speed, limits.acceleration) if limits else (0.1,)))
+    speed.set(xlabel="time [s]", xlim=(0, trajectory.duration), ylim=(0, 1.3 * highest))
     speed.legend(loc="upper center", ncol=2, fontsize=8, frameon=False)
     for axes in (height, speed):
         axes.grid(alpha=0.25)
     figure.savefig(path)
 
 
-def _draw_top(axes: Axes, world: World, points: FloatArray, signs: FloatArray, radius: float) -> None:
+def _draw_top(axes: Axes, world: World, points: FloatArray, view: FloatArray, radius: float) -> None:
     """Bounds, obstacles (darker where they reach the path's height), halo, path."""
     from matplotlib.patches import Rectangle
 
-    corners = signs[:2] * world.walls[:, :2]
+    corners = world.walls @ view
     low, size = corners.min(axis=0), np.ptp(corners, axis=0)
     axes.add_patch(Rectangle((low[0], low[1]), size[0], size[1], fill=False, lw=1.2, color="black"))
     bottom, ceiling = points[:, 2].min(), points[:, 2].max()
@@ -108,32 +113,24 @@ def _draw_top(axes: Axes, world: World, points: FloatArray, signs: FloatArray, r
             z0, z1 = _height(solid)
             reached = z0 - radius < ceiling and z1 + radius > bottom
             if layer == "solid":
-                axes.add_patch(_outline(solid, 0.0, signs, color=SOLID, alpha=0.9 if reached else 0.3, lw=0))
+                axes.add_patch(_outline(solid, 0.0, view, color=SOLID, alpha=0.9 if reached else 0.3, lw=0))
             elif radius > 0.0 and reached:
-                axes.add_patch(_outline(solid, radius, signs, color=HALO, alpha=0.6, lw=0))
-    axes.plot(*(signs[:2] * points[:, :2]).T, color=PATH, lw=2.2)
-    axes.plot(*(signs[:2] * points[0, :2]), "o", color=PATH, ms=8)
-    axes.plot(*(signs[:2] * points[-1, :2]), "*", color=PATH, ms=14)
+                axes.add_patch(_outline(solid, radius, view, color=HALO, alpha=0.6, lw=0))
+    path = points @ view
+    axes.plot(*path.T, color=PATH, lw=2.2)
+    axes.plot(*path[0], "o", color=PATH, ms=8)
+    axes.plot(*path[-1], "*", color=PATH, ms=14)
     pad = 0.03 * float(size.max())
     axes.set(xlim=(low[0] - pad, low[0] + size[0] + pad), ylim=(low[1] - pad, low[1] + size[1] + pad))
     axes.set_aspect("equal")
 
 
-def _mark_clearance(axes: Axes, world: World, point: FloatArray, signs: FloatArray, clearance: float) -> None:
+def _mark_nearest(axes: Axes, world: World, point: FloatArray, view: FloatArray) -> None:
     """A line from the closest point of the path to the surface it is closest to."""
     distance, gradient = world.distance_gradient(point[None])
-    ends = np.array([point, point - distance[0] * gradient[0]])[:, :2] * signs[:2]
+    ends = np.array([point, point - distance[0] * gradient[0]]) @ view
     axes.plot(*ends.T, color=ACCENT, lw=2, solid_capstyle="round", zorder=5)
-    axes.annotate(
-        f"nearest {distance[0]:.2f} m\n(radius + {clearance:.3f} m)",
-        ends[0],
-        xytext=(12, -30),
-        textcoords="offset points",
-        color=ACCENT,
-        fontsize=9,
-        bbox={"boxstyle": "round,pad=0.2", "fc": "white", "ec": "none", "alpha": 0.8},
-        zorder=6,
-    )
+    axes.plot(*ends[0], "o", color=ACCENT, ms=5, zorder=5)
 
 
 def _height(solid: Obstacle) -> tuple[float, float]:
@@ -144,30 +141,28 @@ def _height(solid: Obstacle) -> tuple[float, float]:
     return solid.centre[2] - solid.radius, solid.centre[2] + solid.radius
 
 
-def _outline(solid: Obstacle, grown: float, signs: FloatArray, **style: object) -> Patch:
+def _outline(solid: Obstacle, grown: float, view: FloatArray, **style: Any) -> Patch:
     """A solid's shadow from above, grown by the radius (with round corners)."""
     from matplotlib.patches import Circle, FancyBboxPatch
 
     if isinstance(solid, Cylinder | Sphere):
-        x, y = signs[0] * solid.centre[0], signs[1] * solid.centre[1]
+        x, y = np.array([*solid.centre[:2], 0.0]) @ view
         return Circle((x, y), solid.radius + grown, **style)
-    corners = signs[:2] * np.array([solid.lower[:2], solid.upper[:2]])
+    corners = np.array([solid.lower, solid.upper]) @ view
     low, size = corners.min(axis=0), np.ptp(corners, axis=0)
     shape = f"round,pad={grown},rounding_size={grown}" if grown > 0 else "square,pad=0"
-    return FancyBboxPatch((low[0], low[1]), size[0], size[1], boxstyle=shape, mutation_scale=1, **style)  # type: ignore[arg-type]
+    return FancyBboxPatch((low[0], low[1]), size[0], size[1], boxstyle=shape, mutation_scale=1, **style)
 
 
-def _below(world: World, points: FloatArray, gone: FloatArray, sign: float) -> list[tuple[float, float, float, float]]:
-    """Where the path passes over or under a solid: (from, until, bottom, top) in way gone and drawn height [m]."""
-    found = []
-    for solid in world.obstacles:
-        if isinstance(solid, Box):
-            inside = ((points[:, :2] >= solid.lower[:2]) & (points[:, :2] <= solid.upper[:2])).all(axis=1)
-        else:
-            inside = np.hypot(points[:, 0] - solid.centre[0], points[:, 1] - solid.centre[1]) <= solid.radius
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], inside.astype(np.int8), [0]])))
-        bottom, top = sorted(sign * z for z in _height(solid))
-        found += [
-            (float(gone[a]), float(gone[b - 1]), bottom, top) for a, b in zip(edges[::2], edges[1::2], strict=True)
-        ]
-    return found
+def _slice(solid: Obstacle, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Lower and upper z (m,) [m] of a solid along the vertical through each point; NaN where it is not met."""
+    if isinstance(solid, Box):
+        met = ((points[:, :2] >= solid.lower[:2]) & (points[:, :2] <= solid.upper[:2])).all(axis=1)
+    else:
+        away = np.hypot(points[:, 0] - solid.centre[0], points[:, 1] - solid.centre[1])
+        met = away <= solid.radius
+    if isinstance(solid, Sphere):
+        half = np.sqrt(np.where(met, solid.radius**2 - away**2, np.nan))
+        return solid.centre[2] - half, solid.centre[2] + half
+    low, high = _height(solid)
+    return np.where(met, low, np.nan), np.where(met, high, np.nan)
