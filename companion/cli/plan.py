@@ -6,7 +6,8 @@ from rich.console import Console
 from rich.table import Table
 
 from companion.cli import show
-from companion.drivers.planning import answer
+from companion.drivers.planning import answer, make_plan
+from companion.errors import CompanionError
 from companion.itinerary import Itinerary
 from companion.mission import load_mission
 from companion.seam import PlanReady
@@ -28,12 +29,18 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
         show.print_json({"ok": ok, "mission": mission.name, "seed": seed, "legs": legs})
     else:
         _print(mission.name, answers)
-    if plot is not None and ok and answers:
+    if plot is not None:
         from planner.plot import save_plot
 
-        trajectories = [a.trajectory for a in answers if a.trajectory is not None]
-        save_plot(world, trajectories, requests[0].radius, requests[0].limits, plot, title=mission.name)
-        out.print(f"plot: {plot}")
+        certified = [w for w, a in zip(requests, answers, strict=True) if a.certified]
+        for wanted in certified:
+            file = plot if len(requests) == 1 else plot.with_stem(f"{plot.stem}-step{wanted.request_id}")
+            names = ("north", "east", "-altitude")
+            try:
+                save_plot(world, make_plan(world, wanted), file, wanted.limits, wanted.radius, names)
+            except (OSError, ValueError) as error:
+                raise CompanionError(f"{file}: cannot draw the plan: {error}") from error
+            out.print(f"plot: {file}")
     for leg in answers:
         if not leg.certified:
             out.print(f"[bold red]✗[/] leg {leg.request_id}: {leg.error}: {leg.text}", soft_wrap=True)

@@ -8,7 +8,7 @@ from multiprocessing import get_context
 from typing import Protocol
 
 from companion.seam import PlanReady, PlanWanted
-from planner import PlannerError, World, plan, warm_up
+from planner import Plan, PlannerError, World, plan, warm_up
 
 
 class Planning(Protocol):
@@ -23,18 +23,23 @@ class Planning(Protocol):
     def close(self) -> None: ...
 
 
+def make_plan(world: World, wanted: PlanWanted) -> Plan:
+    """Call the planner with what is wanted; raises as `planner.plan`."""
+    return plan(
+        world,
+        start=wanted.start_m,
+        goal=wanted.goal_m,
+        limits=wanted.limits,
+        radius=wanted.radius,
+        seed=wanted.seed,
+        method=wanted.method,
+    )
+
+
 def answer(world: World, wanted: PlanWanted) -> PlanReady:
     """Make one plan; a planner's refusal is an answer too."""
     try:
-        made = plan(
-            world,
-            start=wanted.start_m,
-            goal=wanted.goal_m,
-            limits=wanted.limits,
-            radius=wanted.radius,
-            seed=wanted.seed,
-            method=wanted.method,
-        )
+        made = make_plan(world, wanted)
     except PlannerError as error:
         return PlanReady(wanted.request_id, None, error=type(error).__name__, text=str(error), method=wanted.method)
     return PlanReady(
