@@ -14,6 +14,8 @@ from planner.cost import Problem, SplineCost, cost_gradient
 from planner.jit import kernel
 from planner.search.haoaroa import Haoaroa, Population, move, remember
 
+BLOCK = 10
+"""Iterations whose random numbers are drawn at once."""
 MEMORY = 6
 ARMIJO = 1e-4
 LONGEST = 0.7
@@ -95,21 +97,13 @@ def lbfgs(x: FloatArray, metric: FloatArray, problem: Problem, most: int, tolera
     return cost, evaluations
 
 
-def search(optimiser: Haoaroa, cost: SplineCost, block: int, gain: float) -> None:
-    """Run an optimiser on a spline's cost, until its budget is spent or a block of iterations gains less than `gain`.
-
-    `gain` is a fraction of the best cost (the paper's "no more appreciable improvement"); 0 spends the budget.
-    """
-    before = np.inf
+def search(optimiser: Haoaroa, cost: SplineCost) -> None:
+    """Run an optimiser on a spline's cost until its budget is spent."""
     while not optimiser.done:
-        count = min(block, optimiser.iterations - optimiser.iteration)
+        count = min(BLOCK, optimiser.iterations - optimiser.iteration)
         uniforms = optimiser.uniforms(count)
         iterate(optimiser.population, cost.problem, optimiser.iteration + 1, optimiser.iterations, uniforms)
         optimiser.advance(count)
-        now = optimiser.best.cost
-        if before - now < gain * now:
-            return
-        before = now
 
 
 def polish(

@@ -19,7 +19,7 @@ from planner.descent import polish, search
 from planner.distance import nearest_solid
 from planner.guide import guide
 from planner.limits import Limits
-from planner.search.haoaroa import ITERATIONS, POPULATION, Haoaroa
+from planner.search.haoaroa import POPULATION, Haoaroa
 from planner.seeds import along_path, fan
 from planner.stopwatch import Stopwatch
 from planner.timing import uniform_scaling, within
@@ -31,8 +31,10 @@ SPACING = 1.4
 """Aimed distance between control points [m]."""
 FEWEST, MOST = 16, 120
 """Control points of a plan."""
-BLOCK, GAIN = 10, 0.01
-"""HAOAROA stops when BLOCK iterations gain less than this fraction of the cost: the polish is the better finisher."""
+ITERATIONS = 30
+"""Of HAOAROA, exploration and exploitation together. It has to find the right side of the obstacles, not the minimum:
+the polish is the better finisher. On the benchmark worlds 10, 30 and 100 iterations end in lengths within 0.6 %.
+"""
 ELITES = 4
 STIFFER = (1.0, 4.0, 32.0)
 """Factors on the obstacle weight, tried in turn until a curve is proved."""
@@ -190,7 +192,7 @@ class _Search:
             budget=POPULATION * ITERATIONS,
             step=0.02 * cost.distance,
         )
-        search(optimiser, cost, BLOCK, GAIN)
+        search(optimiser, cost)
         self.evaluations += optimiser.evaluations
         self.iterations += optimiser.iteration
         order = np.argsort(optimiser.population.best_costs, kind="stable")
