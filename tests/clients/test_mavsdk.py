@@ -50,7 +50,7 @@ def test_arm_take_off_fly_offboard_to_a_point_and_land(system: Any) -> None:
     action.set_takeoff_altitude(2.0)
     assert action.get_takeoff_altitude() == 2.0
     action.arm()
-    assert telemetry.armed()
+    until(telemetry.armed, 2, "arming")  # the ACK ends arm(), the HEARTBEAT that shows it comes right behind
     action.takeoff()
     until(lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air(), 15, "takeoff")
     with pytest.raises(ActionError):
