@@ -3,6 +3,8 @@
 Only HIL_STATE_QUATERNION shows the simulator's truth. A builder gives None while it has nothing true to say: no
 attitude before the alignment, no position before the fix. Numbers that MAVLink packs into small integers are clipped
 to what fits. What this vehicle does not have (a wind estimate, a rangefinder) it does not send.
+
+The file is long since it is a list: 23 messages, each read against its definition on one screen.
 """
 
 import math
