@@ -264,14 +264,18 @@ class FlightStack:
 
     @property
     def control(self) -> ControlStatus:
-        """What the loops did in the newest tick."""
+        """What the loops did in the newest tick; `thrust` is what they asked for, before the mixer."""
         s, f = self._control.status[0], self._control.status["followed"][0].copy()
         speed_max, speed = float(self._body[0]["speed_max"]), s["command"]
+        if self._motors == tick.FLYING:
+            thrust = float(s["thrust"] / self._control.gains[0]["thrust_full"])
+        else:
+            thrust = float(np.sum(speed**2)) / (4.0 * speed_max**2)
         return ControlStatus(
             setpoint=Setpoint(f[0:3], f[3:6], f[6:9], float(f[9]), float(f[10])),
             attitude_setpoint_q_nb=s["q_sp"].copy(),
             rate_setpoint_b=s["rate_sp"].copy(),
-            thrust=float(np.sum(speed**2)) / (4.0 * speed_max**2),
+            thrust=thrust,
             motor=speed / speed_max,
             saturated=bool(s["saturated"] != 0.0),
         )

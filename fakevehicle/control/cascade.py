@@ -110,7 +110,7 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     most = gains.thrust_max / body.mass
     lift = min(max(g - acc2, gains.thrust_min / body.mass), 0.95 * most)
     side = math.hypot(acc0, acc1)
-    allowed = min(gains.tan_tilt * lift, math.sqrt(most * most - lift * lift))
+    allowed = min(gains.tan_tilt * max(lift, 0.6 * g), math.sqrt(most * most - lift * lift))
     share = allowed / side if side > allowed else 1.0
     status.pushed_a[0] = (share - 1.0) * acc0
     status.pushed_a[1] = (share - 1.0) * acc1
@@ -122,8 +122,10 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     acc0 *= share
     acc1 *= share
     # acceleration -> attitude; z_b = -(a_sp - g e3)/|.|
-    norm = math.sqrt(acc0 * acc0 + acc1 * acc1 + lift * lift)
-    zx, zy, zz = -acc0 / norm, -acc1 / norm, lift / norm
+    # with little thrust the same sideways wish would mean a large tilt: wrong in a fast descent, fatal on the ground
+    carried = max(lift, 0.6 * g)
+    norm = math.sqrt(acc0 * acc0 + acc1 * acc1 + carried * carried)
+    zx, zy, zz = -acc0 / norm, -acc1 / norm, carried / norm
     rate = setpoint[10]
     if not math.isnan(setpoint[9]):
         status.yaw = setpoint[9]

@@ -12,6 +12,8 @@ D^(-lambda) is s^(1 - lambda) followed by a trapezoidal 1/s, so that the last th
 one anti-windup feeds. It holds Ki times the integral, so that a change of Ki does not bump the output. Rules:
 
     back-calculation    I += T (u_sat - u) / T_t,   T_t = (Kp / Ki)^(1/lambda)
+                        but never past I = 0: the plain form winds the integral up the other way during a long
+                        saturation, and a fractional one takes many seconds to come back from there
     conditional         no integration while it would push further into a limit that is active
 
 Records instead of arguments: `LOOP` holds one loop's numbers, `BANK` the filter coefficients and states of all loops.
@@ -83,7 +85,10 @@ def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, push
     loop.driven = driven
     if pushed * growth < 0.0:
         growth = 0.0
-    loop.integral += growth + loop.period * loop.track * pushed
+    loop.integral += growth
+    if pushed * loop.integral < 0.0:  # the integral has a part in the excess: take it back, at most to zero
+        back = loop.period * loop.track * pushed
+        loop.integral = loop.integral + back if abs(back) < abs(loop.integral) else 0.0
     loop.integral = min(max(loop.integral, -loop.limit), loop.limit)
     loop.d_out = 0.0
     if loop.kd != 0.0:

@@ -1,9 +1,10 @@
 """The estimator: sensors meet the filter in the past, where the latest of them can still be in time.
 
 Theory of operation. GPS arrives 110 ms after it was true. The filter therefore runs on a horizon that lies that far
-behind the newest IMU sample: IMU samples wait in a ring, others wait until the horizon reaches the time they were true. An output predictor (`strapdown.predict_output`) carries the result to now, at the IMU's rate (PX4's EKF2 has the
-same structure). Before that, on the ground and at rest, one second of samples gives tilt (accelerometer), yaw
-(magnetometer), the barometer's zero, and the first fix gives the origin.
+behind the newest IMU sample: IMU samples wait in a ring, others wait until the horizon reaches the time they were true.
+An output predictor (`strapdown.predict_output`) carries the result to now, at the IMU's rate (PX4's EKF2 has the same
+structure). Before that, on the ground and at rest, one second of samples gives tilt (accelerometer), yaw (magnetometer)
+and the barometer's zero, and the first fix gives the origin.
 """
 
 import math

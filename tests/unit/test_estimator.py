@@ -1,0 +1,184 @@
+"""The error-state filter: its algebra against numerical derivatives, its belief against truth."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
+
+from fakevehicle.airframe import load_airframe
+from fakevehicle.estimator import measurements
+from fakevehicle.estimator.eskf import ErrorStateFilter
+from fakevehicle.estimator.strapdown import normalised_innovation_squared, propagate
+from fakevehicle.flight import PARAMETERS, FlightStack
+from fakevehicle.params import ParameterSet
+from fakevehicle.sensors.magnetometer import field_n
+from fakevehicle.vocabulary import FloatArray, Geodetic, Setpoint
+
+HOME = Geodetic(math.radians(47.397742), math.radians(8.545594), 488.0)
+G = 9.80665
+QUIET = np.zeros(4)
+
+
+def some_state(seed: int) -> FloatArray:
+    rng = np.random.default_rng(seed)
+    n = rng.standard_normal(16)
+    n[6:10] /= np.linalg.norm(n[6:10])
+    n[10:13] *= 0.01
+    n[13:16] *= 0.1
+    return n
+
+
+def moved(nominal: FloatArray, error: FloatArray) -> FloatArray:
+    """The true state that lies `error` from `nominal`, by scipy."""
+    out = nominal.copy()
+    w, x, y, z = nominal[6:10]
+    q = (Rotation.from_quat([x, y, z, w]) * Rotation.from_rotvec(error[0:3])).as_quat()
+    out[6:10] = [q[3], q[0], q[1], q[2]]
+    out[3:6] += error[3:6]
+    out[0:3] += error[6:9]
+    out[10:13] += error[9:12]
+    out[13:16] += error[12:15]
+    return out
+
+
+def between(a: FloatArray, b: FloatArray) -> FloatArray:
+    """The error that leads from `a` to `b`."""
+    ra, rb = (Rotation.from_quat([s[7], s[8], s[9], s[6]]) for s in (a, b))
+    return np.concatenate(
+        [(ra.inv() * rb).as_rotvec(), b[3:6] - a[3:6], b[0:3] - a[0:3], b[10:13] - a[10:13], b[13:16] - a[13:16]]
+    )
+
+
+def test_the_transition_matrix_is_the_derivative_of_the_strapdown() -> None:
+    imu, dt = np.array([0.8, -0.5, 0.3, 1.0, -2.0, -9.0]), 0.004
+    nominal = some_state(1)
+    F, Q = np.eye(15), np.zeros((15, 15))
+    carried = nominal.copy()
+    propagate(carried, imu, dt, G, QUIET, F, Q)
+    numeric, h = np.zeros((15, 15)), 1e-5
+    for j in range(15):
+        ends = []
+        for sign in (1.0, -1.0):
+            error = np.zeros(15)
+            error[j] = sign * h
+            other = moved(nominal, error)
+            propagate(other, imu, dt, G, QUIET, np.eye(15), Q)
+            ends.append(between(carried, other))
+        numeric[:, j] = (ends[0] - ends[1]) / (2 * h)
+    np.testing.assert_allclose(F, numeric, atol=3e-4)  # the page's F leaves out terms of second order in dt
+
+
+@pytest.mark.parametrize("sensor", ["gps_position", "gps_velocity", "baro", "mag"])
+def test_every_jacobian_is_the_derivative_of_its_measurement(sensor: str) -> None:
+    nominal, h = some_state(2), 1e-6
+
+    def measure(state: FloatArray) -> measurements.Measurement:
+        if sensor == "gps_position":
+            return measurements.gps_position(state, np.zeros(3), 0.5)
+        if sensor == "gps_velocity":
+            return measurements.gps_velocity(state, np.zeros(3), 0.5)
+        if sensor == "baro":
+            return measurements.baro(state, 0.0, 0.5)
+        return measurements.magnetometer(state, np.zeros(3), field_n(), 0.05)
+
+    H = measure(nominal).H
+    for j in range(15):
+        error = np.zeros(15)
+        error[j] = h
+        # y = z - h(x): with z = 0 the measurement is -y
+        slope = -(measure(moved(nominal, error)).innovation - measure(moved(nominal, -error)).innovation) / (2 * h)
+        np.testing.assert_allclose(H[:, j], slope, atol=1e-8)
+
+
+def test_nis_is_the_quadratic_form_of_the_innovation() -> None:
+    rng = np.random.default_rng(3)
+    A = rng.standard_normal((15, 15))
+    P, H, R, y = A @ A.T, rng.standard_normal((3, 15)), np.diag([0.1, 0.2, 0.3]), rng.standard_normal(3)
+    direct = float(y @ np.linalg.inv(H @ P @ H.T + R) @ y)
+    assert normalised_innovation_squared(P, H, R, y) == pytest.approx(direct, rel=1e-10)
+
+
+def test_an_update_moves_the_state_as_the_gain_says_and_keeps_p_symmetric() -> None:
+    nominal = some_state(4)
+    f = ErrorStateFilter(nominal, np.full(15, 0.3), G)
+    z = nominal[:2] + np.array([0.5, -0.2])
+    fusion = f.fuse(measurements.gps_position(f.nominal, np.array([*z, 0.0]), 0.4), 13.8)
+    assert fusion.accepted
+    share = 0.09 / (0.09 + 0.16)
+    np.testing.assert_allclose(f.nominal[:2] - nominal[:2], share * np.array([0.5, -0.2]), rtol=1e-9)
+    np.testing.assert_allclose(f.P, f.P.T, atol=0)
+    assert f.P[6, 6] == pytest.approx(0.09 * (1 - share))
+    assert not f.x.any()
+
+
+def test_a_wild_measurement_is_refused_and_changes_nothing() -> None:
+    f = ErrorStateFilter(some_state(5), np.full(15, 0.1), G)
+    before, P = f.nominal.copy(), f.P.copy()
+    fusion = f.fuse(measurements.baro(f.nominal, 500.0, 0.2), 10.83)
+    assert not fusion.accepted
+    assert fusion.nis > 1000
+    np.testing.assert_array_equal(f.nominal, before)
+    np.testing.assert_array_equal(f.P, P)
+
+
+MATCHED = {  # the filter knows exactly how bad its sensors are
+    "EKF2_GPS_P_NOISE": 0.35,
+    "EKF2_GPS_V_NOISE": 0.05,
+    "EKF2_BARO_NOISE": 0.2,
+    "EKF2_MAG_NOISE": 0.03,
+    "EKF2_GYR_NOISE": 0.003,
+    "EKF2_ACC_NOISE": 0.07,
+    "EKF2_ABIAS_INIT": 0.05,
+    "EKF2_GBIAS_INIT": 0.005,
+    "SIM_BARO_DRIFT": 0.0,
+}
+
+
+def test_the_filter_believes_itself_as_much_as_it_should_on_the_ground_and_in_flight() -> None:
+    stack = FlightStack(
+        airframe=load_airframe("x500"),
+        parameters=ParameterSet(PARAMETERS, MATCHED),
+        home=HOME,
+        heading=0.5,
+        wind_n=np.array([2.0, 1.0, 0.0]),
+        seed=11,
+    )
+    seen: dict[str, list[float]] = {"gps_position": [], "gps_velocity": [], "baro": [], "mag": []}
+    dof = {"gps_position": 2, "gps_velocity": 3, "baro": 1, "mag": 3}
+    last: dict[str, object] = {}
+    ground = None
+    for k in range(1, 10_001):
+        t = k * 0.004
+        setpoint = None
+        if t > 8.0:
+            if ground is None:
+                ground = stack.estimate.position_n.copy()
+            s = min((t - 8.0) / 4.0, 1.0)
+            phase = max(t - 14.0, 0.0)
+            north, east = 2.0 * math.sin(0.6 * phase), 1.5 * (1 - math.cos(0.6 * phase))
+            place = ground + np.array([north, east, -3.0 * s * s * (3 - 2 * s)])
+            setpoint = Setpoint(position_n=place, yaw=0.5)
+        stack.tick(k * 4000, setpoint, t > 7.0)
+        for name, fusion in stack.estimator.fusions.items():
+            if fusion is not last.get(name):
+                last[name] = fusion
+                seen[name].append(fusion.nis)
+                assert fusion.dof == dof[name]
+    for name, values in seen.items():
+        n, m = len(values), dof[name]
+        assert n > 350
+        mean = float(np.mean(values))
+        band = chi2.ppf([0.0005, 0.9995], n * m) / n
+        # neighbouring innovations share the filter's slow errors, so a little more than the white band is allowed
+        assert band[0] * 0.95 < mean < band[1] * 1.05, (name, mean / m)
+        assert float(np.mean(np.array(values) > chi2.ppf(0.95, m))) < 0.09
+    truth, estimate = stack.truth, stack.estimate
+    assert estimate.position_valid
+    assert estimate.origin is not None
+    np.testing.assert_allclose(estimate.gyro_bias, stack._imu["gyro_bias"][0], atol=2e-3)
+    w, x, y, z = truth.q_nb
+    a, b, c, d = estimate.q_nb
+    apart = Rotation.from_quat([x, y, z, w]).inv() * Rotation.from_quat([b, c, d, a])
+    assert float(apart.magnitude()) < math.radians(2.0)

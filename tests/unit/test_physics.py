@@ -1,0 +1,235 @@
+"""Rigid body, rotors, ground and wind against closed forms and conservation laws."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from fakevehicle.airframe import GRAVITY, Airframe, load_airframe
+from fakevehicle.control.allocation import allocate
+from fakevehicle.errors import AirframeError
+from fakevehicle.physics.dynamics import STATE, derivative, step
+from fakevehicle.physics.ground import settle
+from fakevehicle.physics.wind import gust_step
+from fakevehicle.vocabulary import FloatArray
+
+X500 = load_airframe("x500")
+CALM = np.zeros(3)
+HIGH = -1000.0  # far above the ground [m, down]
+
+
+def at(altitude_z: float = HIGH, speed: float = 0.0) -> FloatArray:
+    """A level state at rest with all rotors at `speed` [rad/s]."""
+    x = np.zeros(STATE)
+    x[2], x[6], x[13:17] = altitude_z, 1.0, speed
+    return x
+
+
+def fly(
+    x: FloatArray, command: FloatArray, duration: float, dt: float = 0.001, airframe: Airframe = X500
+) -> FloatArray:
+    """`x` after `duration` seconds in calm air; in place."""
+    body, work, anchor = airframe.record()[0], np.zeros((6, STATE)), np.zeros((4, 3))
+    for _ in range(round(duration / dt)):
+        step(x, command, CALM, anchor, body, dt, work)
+    return x
+
+
+def changed(**fields: object) -> Airframe:
+    return X500.model_copy(update=fields)
+
+
+def test_without_drag_and_thrust_it_falls_as_galileo_says() -> None:
+    x = fly(at(), np.zeros(4), 2.0, airframe=changed(drag_area=(0.0, 0.0, 0.0)))
+    assert x[5] == pytest.approx(2.0 * GRAVITY, rel=1e-12)
+    assert x[2] - HIGH == pytest.approx(0.5 * GRAVITY * 2.0**2, rel=1e-9)
+
+
+def test_rotor_drag_decays_sideways_speed_exponentially() -> None:
+    # rotors at constant speed in the plane of the centre of mass: drag is linear and makes no torque about x or y
+    flat = [{"position_b": (*r.position_b[:2], 0.0), "spin": r.spin} for r in X500.rotors]
+    frame = Airframe.model_validate({**X500.model_dump(), "rotors": flat, "drag_area": (0.0, 0.0, 0.0)})
+    speed = 600.0
+    x = at(speed=speed)
+    x[3] = 5.0
+    fly(x, np.full(4, speed), 3.0, airframe=frame)
+    rate = 4 * frame.rotor_drag * speed / frame.mass
+    assert x[3] == pytest.approx(5.0 * math.exp(-rate * 3.0), rel=1e-9)
+    assert x[0] == pytest.approx(5.0 / rate * (1.0 - math.exp(-rate * 3.0)), rel=1e-9)
+
+
+def test_body_drag_ends_in_the_terminal_speed() -> None:
+    x = fly(at(-2000.0), np.zeros(4), 40.0, dt=0.004)
+    area = X500.drag_area[2]
+    assert x[5] == pytest.approx(math.sqrt(2 * X500.mass * GRAVITY / (1.225 * area)), rel=1e-3)
+
+
+def test_wind_is_the_velocity_of_the_air_so_drag_acts_on_the_difference() -> None:
+    body, anchor = X500.record()[0], np.zeros((4, 3))
+    drifting, standing = at(speed=700.0), at(speed=700.0)
+    drifting[3:6] = [4.0, -3.0, 1.0]
+    command = np.full(4, 700.0)
+    a, b = np.zeros(STATE), np.zeros(STATE)
+    derivative(drifting, command, drifting[3:6].copy(), anchor, body, a)
+    derivative(standing, command, CALM, anchor, body, b)
+    np.testing.assert_allclose(a[3:6], b[3:6], atol=1e-12)
+
+
+def test_torque_free_turning_keeps_angular_momentum_and_energy() -> None:
+    frame = changed(drag_area=(0.0, 0.0, 0.0), inertia=(0.02, 0.03, 0.05))
+    x = at()
+    x[10:13] = [3.0, 0.2, 1.0]
+    inertia = np.array(frame.inertia)
+
+    def momentum_n(state: FloatArray) -> FloatArray:
+        w, i, j, k = state[6:10]
+        turned: FloatArray = Rotation.from_quat([i, j, k, w]).apply(inertia * state[10:13])
+        return turned
+
+    before, energy = momentum_n(x), float(inertia @ x[10:13] ** 2)
+    fly(x, np.zeros(4), 10.0, airframe=frame)
+    np.testing.assert_allclose(momentum_n(x), before, rtol=0, atol=1e-9 * float(np.linalg.norm(before)))
+    assert float(inertia @ x[10:13] ** 2) == pytest.approx(energy, rel=1e-9)
+
+
+def test_rotors_that_speed_up_together_turn_the_body_against_their_momentum() -> None:
+    # one pair only: its spin-up must be paid for by the body, on top of the air's drag torque
+    body, anchor, dx = X500.record()[0], np.zeros((4, 3)), np.zeros(STATE)
+    x = at(speed=0.0)
+    derivative(x, np.array([500.0, 500.0, 0.0, 0.0]), CALM, anchor, body, dx)
+    # both spin counter-clockwise from above (-z_b); momentum is conserved, so the body turns about +z_b
+    momentum = -2 * X500.rotor_inertia * 500.0 / X500.time_constant_up
+    assert dx[12] == pytest.approx(-momentum / X500.inertia[2], rel=1e-12)
+
+
+def test_it_hovers_at_the_hover_speed() -> None:
+    speed = X500.hover_speed
+    assert speed == pytest.approx(769.0, abs=1.0)
+    x = fly(at(speed=speed), np.full(4, speed), 5.0)
+    np.testing.assert_allclose(x[0:6] - at()[0:6], 0.0, atol=1e-6)
+
+
+def test_rotors_follow_faster_up_than_down() -> None:
+    x = fly(at(speed=500.0), np.array([600.0, 400.0, 500.0, 500.0]), 0.025)
+    assert x[13] == pytest.approx(600.0 - 100.0 * math.exp(-2.0), rel=1e-6)
+    assert x[14] == pytest.approx(400.0 + 100.0 * math.exp(-1.0), rel=1e-6)
+
+
+def test_runge_kutta_is_of_fourth_order_and_agrees_with_another_integrator() -> None:
+    body, anchor = X500.record()[0], np.zeros((4, 3))
+    start = at(speed=760.0)
+    start[3:6], start[10:13] = [3.0, -1.0, 0.5], [1.0, -2.0, 0.7]
+    command = np.array([790.0, 775.0, 795.0, 800.0])  # every rotor speeds up: no switch of time constant
+
+    def f(_: float, state: FloatArray) -> FloatArray:
+        dx = np.zeros(STATE)
+        derivative(state, command, CALM, anchor, body, dx)
+        return dx
+
+    exact = solve_ivp(f, (0.0, 0.2), start, method="DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
+    errors = [float(np.abs(fly(start.copy(), command, 0.2, dt) - exact)[:13].max()) for dt in (0.004, 0.002, 0.001)]
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.3)
+    assert errors[2] < 1e-8
+
+
+def test_each_rotor_pushes_the_way_its_place_and_spin_say() -> None:
+    # PX4 order; signs worked by hand: a rotor in front pitches up (+y), one on the right rolls left (-x),
+    # one that spins counter-clockwise turns the body clockwise (+z)
+    signs = np.sign(X500.allocation())
+    np.testing.assert_array_equal(signs[0], [-1, 1, 1, -1])
+    np.testing.assert_array_equal(signs[1], [1, -1, 1, -1])
+    np.testing.assert_array_equal(signs[2], [1, 1, -1, -1])
+    np.testing.assert_array_equal(signs[3], [1, 1, 1, 1])
+    assert np.linalg.matrix_rank(X500.allocation()) == 4
+
+
+def test_dynamics_and_allocation_agree_on_torque_and_thrust() -> None:
+    body, anchor, dx = X500.record()[0], np.zeros((4, 3)), np.zeros(STATE)
+    command, pushed = np.zeros(4), np.zeros(4)
+    wanted = np.array([0.2, -0.15, 0.02, 22.0])
+    assert not allocate(body, *wanted, command, pushed)
+    x = at()
+    x[13:17] = command
+    derivative(x, command, CALM, anchor, body, dx)
+    np.testing.assert_allclose(dx[10:13] * X500.inertia, wanted[:3], rtol=1e-6)
+    assert (GRAVITY - dx[5]) * X500.mass == pytest.approx(wanted[3], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "kept", "given_up"),
+    [
+        ((0.1, -0.1, 3.0, 20.0), (0, 1, 3), (2,)),  # too much yaw: only yaw suffers
+        ((1.0, 0.5, 0.0, 33.0), (0, 1), (3,)),  # roll and pitch near full thrust: thrust gives way
+        ((8.0, 0.0, 0.5, 20.0), (), (0,)),  # more roll than there is
+    ],
+)
+def test_the_mixer_gives_up_the_least_important_axis_first(
+    wanted: tuple[float, ...], kept: tuple[int, ...], given_up: tuple[int, ...]
+) -> None:
+    body, command, pushed = X500.record()[0], np.zeros(4), np.zeros(4)
+    assert allocate(body, *wanted, command, pushed)
+    reached = X500.allocation() @ (X500.thrust_coefficient * command**2)
+    np.testing.assert_allclose(reached - wanted, pushed, atol=1e-9)
+    for axis in kept:
+        assert reached[axis] == pytest.approx(wanted[axis], abs=1e-9)
+    for axis in given_up:
+        assert abs(pushed[axis]) > 1e-3
+    assert command.max() <= X500.max_rotor_speed + 1e-9
+    assert command.min() >= X500.idle_rotor_speed - 1e-9
+
+
+def test_it_rests_on_the_ground_without_drifting_even_in_wind() -> None:
+    body, work = X500.record()[0], np.zeros((6, STATE))
+    anchor = np.array(X500.contact_points_b)
+    x, wind = at(0.0), np.array([6.0, 3.0, 0.0])
+    for _ in range(5000):
+        step(x, np.zeros(4), wind, anchor, body, 0.001, work)
+        assert settle(x, anchor, body)
+    settled = x.copy()
+    for _ in range(5000):
+        step(x, np.zeros(4), wind, anchor, body, 0.001, work)
+        settle(x, anchor, body)
+    np.testing.assert_allclose(x[:6], settled[:6], atol=1e-9)
+    assert float(np.abs(x[:3]).max()) < 2e-3
+
+
+def test_a_fall_from_a_metre_ends_upright_at_rest() -> None:
+    body, work = X500.record()[0], np.zeros((6, STATE))
+    anchor = np.array(X500.contact_points_b)
+    x = at(-1.0)
+    x[3] = 0.5
+    highest = 0.0
+    for _ in range(6000):
+        step(x, np.zeros(4), CALM, anchor, body, 0.001, work)
+        settle(x, anchor, body)
+        highest = max(highest, float(np.abs(x[3:6]).max()))
+    assert highest < 4.6  # sqrt(2 g h) = 4.43 and nothing faster
+    np.testing.assert_allclose(x[3:6], 0.0, atol=1e-3)
+    assert x[2] == pytest.approx(0.0, abs=1e-3)
+    assert x[6] > 0.99
+
+
+@pytest.mark.parametrize("dt", [0.004, 0.1])
+def test_turbulence_has_the_standards_variance_whatever_the_step(dt: float) -> None:
+    rng, gust = np.random.default_rng(5), np.zeros(3)
+    speed, height, strength = 8.0, 10.0, 9.0
+    n = round(4000.0 / dt) if dt > 0.05 else 200_000
+    draws, seen = rng.standard_normal((n, 3)), np.zeros((n, 3))
+    for k in range(n):
+        gust_step(gust, strength, height, speed, dt, draws[k])
+        seen[k] = gust
+    feet = height * 3.280839895
+    sigma_w = 0.1 * strength
+    sigma_u = sigma_w / (0.177 + 0.000823 * feet) ** 0.4
+    np.testing.assert_allclose(seen.std(axis=0), [sigma_u, sigma_u, sigma_w], rtol=0.25)
+
+
+def test_a_bad_airframe_file_is_one_clear_error(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    text = (X500.model_dump_json()).replace('"mass":2.06432', '"mass":-1')
+    (tmp_path / "bad.yaml").write_text(text)
+    with pytest.raises(AirframeError, match=r"bad\.yaml: mass: found -1.*expected .*greater than 0"):
+        load_airframe(str(tmp_path / "bad.yaml"))
+    with pytest.raises(AirframeError, match="x500"):
+        load_airframe("no_such_thing")
