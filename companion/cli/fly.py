@@ -170,8 +170,8 @@ def _fly(
         show.print_json(result)
     else:
         shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in drops.items())
-        rows = [("messages recorded", f"{total(counters)}"), ("losses", shown), ("recording", str(file))]
-        show.print_verdict(verdict, {**show.expectations(mission), "rows": rows}, Console())
+        details = {"messages": str(total(counters)), "losses": shown, "recording": str(file)}
+        show.print_verdict(verdict, mission.expect, details, Console())
     return 0 if verdict.ok else 1
 
 

@@ -13,6 +13,7 @@ from rich.table import Table
 
 from companion.core import Companion
 from companion.drivers.tick import Tick
+from companion.mission import Expect
 from companion.phases import Phase
 from companion.seam import Level, Note
 from companion.verdict import FlightMeter, Verdict
@@ -80,59 +81,44 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in text).replace("[", "\\[")
 
 
-def print_verdict(verdict: Verdict, extra: Mapping[str, Any], out: Console) -> None:
-    """The table at the end of a flight."""
-    table = Table(title=f"{verdict.mission}: {'PASS' if verdict.ok else 'FAIL'}", title_style=_style(verdict.ok))
+def print_verdict(verdict: Verdict, expect: Expect, details: Mapping[str, str], out: Console) -> None:
+    """The table at the end of a flight, what went wrong, and details a line each."""
+    table = Table(title=f"{plain(verdict.mission)}: {'PASS' if verdict.ok else 'FAIL'}", title_style=_style(verdict.ok))
     table.add_column("measured")
     table.add_column("value", justify="right")
     table.add_column("expected", justify="right")
+    estimate = (verdict.estimate_error_p50_m, verdict.estimate_error_p95_m, verdict.estimate_error_max_m)
     rows = [
         ("phase", verdict.phase, "done"),
-        ("flight time", _number(verdict.duration_s, "s", 1), extra.get("expect_duration", "")),
+        ("flight time", _number(verdict.duration_s, "s", 1), _bound("≤", expect.duration_max_s, "s")),
         ("path length", _number(verdict.path_length_m, "m", 2), ""),
-        *_error_rows(verdict, extra),
-        ("least clearance of the hull", _number(verdict.min_clearance_m, "m", 3), extra.get("expect_clearance", "")),
+        ("error to the estimate, p50 / p95 / max", _three(estimate), ""),
+        (
+            "least clearance of the hull",
+            _number(verdict.min_clearance_m, "m", 3),
+            _bound("≥", expect.min_clearance_m, "m"),
+        ),
         ("setpoint rate", _number(verdict.setpoint_rate_hz, "Hz", 2), ""),
-        ("setpoint gap p99", _number(verdict.setpoint_gap_p99_ms, "ms", 1), extra.get("expect_gap", "")),
-        ("setpoint gap worst", _number(verdict.setpoint_gap_max_ms, "ms", 1), ""),
-        *[(name, str(value), "") for name, value in extra.get("rows", [])],
+        (
+            "setpoint gap, p99",
+            _number(verdict.setpoint_gap_p99_ms, "ms", 1),
+            _bound("≤", expect.setpoint_gap_p99_ms, "ms"),
+        ),
+        ("setpoint gap, worst", _number(verdict.setpoint_gap_max_ms, "ms", 1), ""),
     ]
+    judged = _bound("p95 ≤", expect.tracking_error_p95_m, "m")
+    if verdict.tracking_error_source == "truth":
+        truth = (verdict.tracking_error_p50_m, verdict.tracking_error_p95_m, verdict.tracking_error_max_m)
+        rows.insert(4, ("error to the truth, p50 / p95 / max", _three(truth), judged))
+    else:
+        rows[3] = (*rows[3][:2], judged)
     for row in rows:
         table.add_row(*row)
     out.print(table)
+    for name, value in details.items():
+        out.print(f"[dim]{name:>10}[/dim]  {plain(value)}", soft_wrap=True)
     for problem in ([verdict.failure] if verdict.failure else []) + verdict.failed_expectations:
         out.print(f"[bold red]✗[/bold red] {plain(problem)}", soft_wrap=True)
-
-
-def _error_rows(verdict: Verdict, extra: Mapping[str, Any]) -> list[tuple[str, str, str]]:
-    def three(p50: float | None, p95: float | None, most: float | None) -> str:
-        return "-" if p50 is None or p95 is None or most is None else f"{p50:.3f} / {p95:.3f} / {most:.3f} m"
-
-    rows = [
-        (
-            "tracking error against the estimate, p50 / p95 / max",
-            three(verdict.estimate_error_p50_m, verdict.estimate_error_p95_m, verdict.estimate_error_max_m),
-            "",
-        )
-    ]
-    if verdict.tracking_error_source == "truth":
-        found = three(verdict.tracking_error_p50_m, verdict.tracking_error_p95_m, verdict.tracking_error_max_m)
-        rows.append(("tracking error against truth, p50 / p95 / max", found, ""))
-    label, column, expected = rows[-1]
-    rows[-1] = (label, column, extra.get("expect_tracking", expected))
-    return rows
-
-
-def expectations(mission: Any) -> dict[str, str]:
-    """The verdict table's third column."""
-    expect = mission.expect
-    shown = {
-        "expect_tracking": (expect.tracking_error_p95_m, "p95 ≤ {:g} m"),
-        "expect_clearance": (expect.min_clearance_m, "≥ {:g} m"),
-        "expect_duration": (expect.duration_max_s, "≤ {:g} s"),
-        "expect_gap": (expect.setpoint_gap_p99_ms, "≤ {:g} ms"),
-    }
-    return {key: text.format(value) for key, (value, text) in shown.items() if value is not None}
 
 
 def print_json(value: Mapping[str, Any]) -> None:
@@ -153,6 +139,15 @@ def _json_value(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _json_value(item) for key, item in value.items()}
     return [_json_value(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _bound(sign: str, value: float | None, unit: str) -> str:
+    return "" if value is None else f"{sign} {value:g} {unit}"
+
+
+def _three(values: tuple[float | None, float | None, float | None]) -> str:
+    p50, p95, most = values
+    return "-" if p50 is None or p95 is None or most is None else f"{p50:.3f} / {p95:.3f} / {most:.3f} m"
 
 
 def _number(value: float | None, unit: str, digits: int) -> str:

@@ -59,11 +59,7 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
     if as_json:
         show.print_json(result)
     else:
-        rows = [
-            ("messages recorded", f"{total(recorder.counters)}"),
-            ("speed", f"{result['speedup']:.0f} x real time, {result['cpu_ms_per_sim_s']:.1f} ms CPU a second"),
-            ("outputs sha256", sha256[:16] + "…"),
-            ("recording", "-" if record is None else str(record)),
-        ]
-        show.print_verdict(verdict, {**show.expectations(mission), "rows": rows}, Console())
+        speed = f"{result['speedup']:.0f} x real time, {result['cpu_ms_per_sim_s']:.1f} ms of CPU a simulated second"
+        details = {"messages": str(result["messages_recorded"]), "speed": speed, "outputs": f"sha256 {sha256}"}
+        show.print_verdict(verdict, mission.expect, details | ({"recording": str(record)} if record else {}), Console())
     return 0 if verdict.ok else 1
