@@ -15,7 +15,7 @@ Where this leaves the printed equations:
 - Eq. 38 sums squares of single terms; the square of the sum is the quadratic form above. tau = speed/acceleration
   limit is the time to reach full speed and T the time to cover D at it: then J_stretch + J_smooth is int |v|^2 +
   tau^2 |a|^2 dt in other units, whose minimiser reaches its speed with the time constant tau. No weight is left to
-  tune, but a fast, weak vehicle would round off more than any gap lets pass: tau speed is kept below SOFTEST.
+  tune. A fast, weak vehicle would round off more than a maze lets pass: `softest` then bounds the way tau speed.
 - Eq. 39 grows with the distance from an obstacle, so minimising it attracts. A hinge on the signed distance d repels,
   inside c = radius + buffer only; walls of the map are obstacles with d = distance to the wall.
 
@@ -42,8 +42,8 @@ FIXED = 3
 """Control points pinned at each end: three equal ones are rest with zero acceleration (see `timing`)."""
 WEIGHT = 30.0
 """k: a corner of 0.45 m radius then bends the curve in by about a fifth of c."""
-SOFTEST = 1.5
-"""Largest way [m] over which smoothness lets the speed change."""
+SHORTEST = 0.1
+"""Least D [m], so that a hop to the place one is at has a scale too."""
 FINEST, MOST_CELLS = 2.0, 30_000
 """Cells a metre along each axis at most, and in all."""
 
@@ -248,6 +248,7 @@ class SplineCost:
     limits : Limits       speed and acceleration fix the weight of smoothness.
     reach : float         c, where the hinge begins [m]; positive.
     length : float        D, about how long the way will be [m]; the straight distance when not given.
+    softest : float       most way over which smoothness lets the speed change [m].
     grid : Grid           of `build_grid(world, c)` with at least this reach; built when not given.
     """
 
@@ -261,6 +262,7 @@ class SplineCost:
         reach: float,
         weight: float = WEIGHT,
         length: float | None = None,
+        softest: float = np.inf,
         grid: Grid | None = None,
     ) -> None:
         if n <= 2 * FIXED:
@@ -271,9 +273,9 @@ class SplineCost:
         self.world, self.reach, self.weight = world, reach, weight
         self.ends = np.array([start, goal], dtype=np.float64)
         shape = _Shape.of(n)
-        soft = min(limits.speed**2 / limits.acceleration, SOFTEST)  # tau speed
         straight = float(np.linalg.norm(self.ends[1] - self.ends[0]))
-        self.distance = max(straight if length is None else length, soft)
+        self.distance = max(straight if length is None else length, SHORTEST)
+        soft = min(limits.speed**2 / limits.acceleration, self.distance, softest)  # tau speed
         self._smooth: FloatArray = (soft / (self.distance + soft)) ** 2 * shape.smoothness / self.distance
         self._stretch: FloatArray = shape.stretch / self.distance
         whole: FloatArray = self._stretch + self._smooth

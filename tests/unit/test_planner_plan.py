@@ -98,6 +98,15 @@ def test_a_maze_that_no_bow_passes_is_solved_with_the_search_graphs_help() -> No
     assert p.length > 30
 
 
+def test_a_fast_and_weak_vehicle_gets_round_the_same_corners_more_slowly() -> None:
+    world = World(BOUNDS, WORLDS["baffles"])
+    nimble = plan(world, START, GOAL, Limits(8.0, 8.0, 80.0), RADIUS)
+    weak = plan(world, START, GOAL, Limits(8.0, 2.0, 8.0), RADIUS)
+    assert weak.certified
+    assert sampled_clearance(weak, WORLDS["baffles"]) >= 0
+    assert weak.trajectory.duration > nimble.trajectory.duration
+
+
 def test_the_frame_may_have_z_pointing_down() -> None:
     flip = World(((0, 0, -4), (20, 20, 0)), [Box((9, 0, -2.5), (10, 20, 0)), Cylinder((5, 10), 0.5, (-4, 0))])
     p = plan(flip, (1, 10, -1.5), (19, 10, -1.5), LIMITS, RADIUS)
