@@ -87,29 +87,22 @@ def print_verdict(verdict: Verdict, expect: Expect, details: Mapping[str, str], 
     table.add_column("measured")
     table.add_column("value", justify="right")
     table.add_column("expected", justify="right")
+    clearance, gap = _bound("≥", expect.min_clearance_m, "m"), _bound("≤", expect.setpoint_gap_p99_ms, "ms")
     estimate = (verdict.estimate_error_p50_m, verdict.estimate_error_p95_m, verdict.estimate_error_max_m)
     rows = [
         ("phase", verdict.phase, "done"),
         ("flight time", _number(verdict.duration_s, "s", 1), _bound("≤", expect.duration_max_s, "s")),
         ("path length", _number(verdict.path_length_m, "m", 2), ""),
-        ("error to the estimate, p50 / p95 / max", _three(estimate), ""),
-        (
-            "least clearance of the hull",
-            _number(verdict.min_clearance_m, "m", 3),
-            _bound("≥", expect.min_clearance_m, "m"),
-        ),
+        ("error to estimate, p50/p95/max", _three(estimate), ""),
+        ("least clearance of the hull", _number(verdict.min_clearance_m, "m", 3), clearance),
         ("setpoint rate", _number(verdict.setpoint_rate_hz, "Hz", 2), ""),
-        (
-            "setpoint gap, p99",
-            _number(verdict.setpoint_gap_p99_ms, "ms", 1),
-            _bound("≤", expect.setpoint_gap_p99_ms, "ms"),
-        ),
+        ("setpoint gap, p99", _number(verdict.setpoint_gap_p99_ms, "ms", 1), gap),
         ("setpoint gap, worst", _number(verdict.setpoint_gap_max_ms, "ms", 1), ""),
     ]
     judged = _bound("p95 ≤", expect.tracking_error_p95_m, "m")
     if verdict.tracking_error_source == "truth":
         truth = (verdict.tracking_error_p50_m, verdict.tracking_error_p95_m, verdict.tracking_error_max_m)
-        rows.insert(4, ("error to the truth, p50 / p95 / max", _three(truth), judged))
+        rows.insert(4, ("error to truth, p50/p95/max", _three(truth), judged))
     else:
         rows[3] = (*rows[3][:2], judged)
     for row in rows:
