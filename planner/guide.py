@@ -1,6 +1,6 @@
 """The way round, when bows do not find it: A* on a coarse grid of the free space, then pulled taut.
 
-The grid is the map less the radius, its cells at most CELL wide; a cell is free when its centre keeps the radius.
+The grid is the map less the radius, its cells at most CELLS wide; a cell is free when its centre keeps the radius.
 Edges to all 26 neighbours, their middle checked too. The result is a guess for the spline, never a proof: what it
 leads to is proved or refused like any other curve. Hart, Nilsson & Raphael 1968; the heuristic is the straight
 distance.
@@ -22,7 +22,7 @@ _SLACK = 1.02  # on the radius: a guide that just touches leaves the spline no r
 
 
 @kernel
-def _free(solids: FloatArray, walls: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bool:
+def _free(solids: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bool:
     """Whether the segment from a to b keeps the radius: sphere marching with the 1-Lipschitz distance."""
     length = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
     t = 0.0
@@ -39,7 +39,6 @@ def _free(solids: FloatArray, walls: FloatArray, radius: float, a: FloatArray, b
 @kernel
 def astar(
     solids: FloatArray,
-    walls: FloatArray,
     origin: FloatArray,
     step: FloatArray,
     shape: FloatArray,
@@ -137,14 +136,14 @@ def astar(
 
 
 @kernel
-def pull_taut(solids: FloatArray, walls: FloatArray, radius: float, path: FloatArray) -> FloatArray:
+def pull_taut(solids: FloatArray, radius: float, path: FloatArray) -> FloatArray:
     """The corners (m, 3) left when every point that the one after next can be seen past is dropped."""
     kept = np.empty_like(path)
     kept[0] = path[0]
     count, i, last = 1, 0, path.shape[0] - 1
     while i < last:
         j = i + 1
-        while j < last and _free(solids, walls, radius, path[i], path[j + 1]):
+        while j < last and _free(solids, radius, path[i], path[j + 1]):
             j += 1
         kept[count] = path[j]
         count += 1
@@ -161,8 +160,8 @@ def guide(world: World, start: FloatArray, goal: FloatArray, radius: float) -> F
         if float(np.prod(shape)) > MOST_CELLS:
             continue
         step = np.maximum((high - low) / (shape - 1.0), 1e-9)
-        path = astar(world.solids, world.walls, low, step, shape, ends, radius * _SLACK)
+        path = astar(world.solids, low, step, shape, ends, radius * _SLACK)
         if len(path):
             whole = np.concatenate([ends[:1], path[1:-1], ends[1:]])
-            return np.asarray(pull_taut(world.solids, world.walls, radius * _SLACK, whole))
+            return np.asarray(pull_taut(world.solids, radius * _SLACK, whole))
     return None

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from planner.bspline import DEGREE, FloatArray, arc_length, check_knots, evaluate
+from planner.errors import KnotError
 
 Polynomial = tuple[tuple[float, float, float, float], ...]  # one row an axis: x, x', x''/2, x'''/6 at the span's start
 
@@ -56,8 +57,6 @@ class Trajectory:
             raise ValueError(f"control points: expected finite numbers of shape (n, 3), found shape {points.shape}")
         check_knots(knots, len(points))
         if knots[0] != 0.0:
-            from planner.errors import KnotError
-
             raise KnotError(f"a trajectory starts at 0 s, found first knot {knots[0]:g}")
         starts = knots[DEGREE : len(points)]
         table = np.stack(
