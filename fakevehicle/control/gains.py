@@ -5,6 +5,7 @@ Names are PX4's where PX4 has the same thing. Those of the FOPID-TID loops begin
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,8 +58,16 @@ FOPID_LOOPS = (
         kp=6.0, kt=1.0, ki=2.0, ki0=0.0, kd=0.0, lam=0.95, mu=0.9, tilt_n=3.0, limit=2.0,
     ),
 )  # fmt: skip
-"""lambda stays at 0.85 or above: the paper's 0.3127 leaves 0.2 m of offset after a minute in 8 m/s of wind. The
-integrals' limits are a few times what wind and imbalance ask for, so that feet on the ground cannot wind them up far."""
+"""lambda stays at 0.85 or above: the paper's 0.3127 leaves a lateral offset in steady wind that fades for minutes. The
+integrals' limits are a few times what wind and imbalance ask for, so that feet on the ground cannot wind them up."""
+
+PAPER_GAINS: Mapping[str, float] = {
+    f"FT_{loop}_{term}": value
+    for loop in ("VXY", "VZ")
+    for term, value in (("KP", 1.3254), ("KT", 0.0), ("KI", 0.4627), ("KD", 0.1892), ("LAMBDA", 0.3127), ("MU", 0.3419))
+}
+"""The paper's one set of FOPID gains (its section on results; the loop it belongs to is not said), as overrides of the
+velocity loops. Kept for comparison, not for flying in wind."""
 
 
 def _loop_parameters(loop: LoopDefaults) -> tuple[Parameter, ...]:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from fakevehicle.airframe import load_airframe
+from fakevehicle.control.gains import PAPER_GAINS
 from fakevehicle.flight import PARAMETERS, FlightStack
 from fakevehicle.params import ParameterSet
 from fakevehicle.vocabulary import FloatArray, Geodetic, Setpoint
@@ -39,7 +40,7 @@ class Flight:
             parameters=self.set,
             home=HOME,
             heading=0.3,
-            wind_n=np.array(self.wind),
+            wind_n=np.array(self.wind, dtype=float),
             seed=self.seed,
         )
         self.now_us = 0
@@ -122,6 +123,25 @@ def test_steady_wind_is_trimmed_out() -> None:
     flight.fly(6.0, still(hover))
     e = errors(flight.fly(10.0, still(hover)))
     assert float(np.linalg.norm(e.mean(axis=0))) < 0.2
+
+
+def test_the_paper_s_orders_fly_but_cannot_trim_a_steady_wind() -> None:
+    calm = Flight(seed=4, parameters=dict(PAPER_GAINS))
+    hover = calm.climb()
+    assert float(np.linalg.norm(errors(calm.fly(8.0, still(hover)))[-1])) < 0.4
+
+    def offset(parameters: dict[str, float]) -> float:
+        """How far downwind it stays, by its own belief, so that the estimator's error does not count."""
+        flight = Flight(seed=4, wind=(8.0, 0.0, 0.0), parameters=parameters)
+        hover = flight.climb()
+        flight.fly(12.0, still(hover))
+        seen = []
+        for _ in range(100):
+            flight.fly(0.02, still(hover))
+            seen.append(float(flight.stack.estimator.out[0] - hover[0]))
+        return float(np.mean(seen))
+
+    assert offset(dict(PAPER_GAINS)) > 3 * abs(offset({}))
 
 
 def lemniscate(centre: FloatArray, period: float) -> Callable[[float], Setpoint]:
