@@ -51,7 +51,8 @@ class Parameter:
         if not np.isfinite(value):
             raise ValueError(f"{self.name}: {value} is not a finite number")
         if not self.minimum <= value <= self.maximum:
-            raise ValueError(f"{self.name}: {value:g} is outside {self.minimum:g}..{self.maximum:g} {self.unit}".rstrip())
+            allowed = f"{self.minimum:g}..{self.maximum:g} {self.unit}".rstrip()
+            raise ValueError(f"{self.name}: {value:g} is outside {allowed}")
         return round(value) if self.type is ParameterType.INT32 else float(np.float32(value))
 
 

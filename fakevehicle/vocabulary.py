@@ -54,7 +54,7 @@ class Estimate:
     gyro_bias: FloatArray  # (3,) [rad/s]
     accel_bias: FloatArray  # (3,) [m/s^2]
     covariance: FloatArray  # (15, 15) of [dtheta, dv, dp, db_g, db_a]
-    test_ratio: dict[str, float]  # sqrt(NIS / gate) a sensor: "gps_position", "gps_velocity", "baro", "mag"; above 1 rejected
+    test_ratio: dict[str, float]  # sqrt(NIS / gate), above 1 rejected: "gps_position", "gps_velocity", "baro", "mag"
     attitude_valid: bool
     velocity_valid: bool
     position_valid: bool
