@@ -289,6 +289,7 @@ class FlightStack:
         s = self._setpoint
         s[0:3], s[3:6], s[6:9] = setpoint.position_n, setpoint.velocity_n, setpoint.acceleration_n
         s[9], s[10] = setpoint.yaw, setpoint.yaw_rate
+        s[~np.isfinite(s)] = np.nan  # infinity asks for nothing
         self._setpoint_from = setpoint
 
     def _reload(self) -> None:

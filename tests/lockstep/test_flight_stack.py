@@ -213,6 +213,24 @@ def test_gains_change_in_flight_without_a_bump() -> None:
     assert float(np.linalg.norm(e, axis=1).max()) < 0.4
 
 
+@pytest.mark.parametrize("value", [1e30, -1e308, math.inf, -math.inf])
+def test_absurd_setpoints_neither_break_the_numbers_nor_the_limits(value: float) -> None:
+    flight = Flight(seed=9)
+    hover = flight.climb()
+    wild = np.array([value, -value, math.nan])
+    for absurd in (
+        Setpoint(wild, np.zeros(3), yaw=value),
+        Setpoint(velocity_n=wild, yaw_rate=value),
+        Setpoint(acceleration_n=wild),
+    ):
+        flight.fly(0.5, absurd)
+        truth = flight.stack.truth
+        assert np.isfinite(truth.position_n).all()
+        assert float(np.linalg.norm(truth.velocity_n)) < 13.0
+    flight.fly(6.0, still(hover))
+    assert float(np.linalg.norm(flight.stack.truth.velocity_n)) < 3.0
+
+
 def test_the_same_seed_gives_the_same_flight_bit_for_bit_and_another_seed_another() -> None:
     def end(seed: int) -> bytes:
         flight = Flight(seed=seed, wind=(1.0, 0.0, 0.0), parameters={"SIM_WIND_GUST": 3.0})
