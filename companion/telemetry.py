@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from companion.fields import attitude_yaw, local_position_ned
 from wire.dialect import mavlink
 from wire.framing import Packet
 
@@ -50,6 +51,10 @@ class Telemetry:
 
     def take(self, now_us: int, packet: Packet, mav: Any) -> None:
         """Decode one packet and keep what it says; kinds we do not fly by cost nothing."""
+        frequent = FREQUENT.get(packet.message_id)
+        if frequent is not None:
+            frequent(self, now_us, packet.payload)
+            return
         handler = HANDLERS.get(packet.message_id)
         if handler is not None:
             handler(self, now_us, mav.decode(bytearray(packet.raw)))
@@ -61,16 +66,17 @@ class Telemetry:
         self.custom_mode = m.custom_mode
         self.system_status = m.system_status
 
-    def _local_position(self, now_us: int, m: Any) -> None:
-        values = (m.x, m.y, m.z, m.vx, m.vy, m.vz)
+    def _local_position(self, now_us: int, payload: bytes) -> None:
+        values = local_position_ned(payload)
         if all(map(math.isfinite, values)):
             self.position_us = now_us
             self.position_n = np.array(values[:3])
             self.velocity_n = np.array(values[3:])
 
-    def _attitude(self, now_us: int, m: Any) -> None:
-        if math.isfinite(m.yaw):
-            self.attitude_us, self.yaw = now_us, m.yaw
+    def _attitude(self, now_us: int, payload: bytes) -> None:
+        yaw = attitude_yaw(payload)
+        if math.isfinite(yaw):
+            self.attitude_us, self.yaw = now_us, yaw
 
     def _extended_state(self, now_us: int, m: Any) -> None:
         self.landed_state = m.landed_state
@@ -104,10 +110,14 @@ class Telemetry:
             self.texts.append((m.severity, text.strip()))
 
 
-HANDLERS: dict[int, Callable[[Telemetry, int, Any], None]] = {
-    mavlink.MAVLINK_MSG_ID_HEARTBEAT: Telemetry._heartbeat,
+FREQUENT: dict[int, Callable[[Telemetry, int, bytes], None]] = {
     mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED: Telemetry._local_position,
     mavlink.MAVLINK_MSG_ID_ATTITUDE: Telemetry._attitude,
+}
+"""Kinds that come every tick, from their payload."""
+
+HANDLERS: dict[int, Callable[[Telemetry, int, Any], None]] = {
+    mavlink.MAVLINK_MSG_ID_HEARTBEAT: Telemetry._heartbeat,
     mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: Telemetry._extended_state,
     mavlink.MAVLINK_MSG_ID_SYS_STATUS: Telemetry._sys_status,
     mavlink.MAVLINK_MSG_ID_ESTIMATOR_STATUS: Telemetry._estimator_status,

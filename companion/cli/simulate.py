@@ -1,7 +1,7 @@
 """`companion simulate`: mission in, lockstep flight, verdict out."""
 
-import tempfile
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
@@ -35,23 +35,21 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
         warm_up()
     vehicle = build_vehicle(mission, seed)
     meter = FlightMeter(companion)
-    with tempfile.TemporaryDirectory() as scratch:
-        file = record if record is not None else Path(scratch) / "simulate.mcap"
-        with (
-            Recorder(file, threaded=False, **header(companion, data)) as recorder,
-            show.ProgressLine(companion, meter, out) as progress,
-        ):
-            recording = RecordingTap(companion, recorder)
-            taps: list[Tap] = [meter, recording, progress]
-            wall, cpu = time.perf_counter(), time.process_time()
-            end_us = fly_lockstep(companion, vehicle, LINK, planning, taps, limit_s=LIMIT_S)
-            wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+    with ExitStack() as stack:
+        recorder = None
+        if record is not None:
+            recorder = stack.enter_context(Recorder(record, threaded=False, **header(companion, data)))
+        recording = RecordingTap(companion, recorder)
+        taps: list[Tap] = [meter, recording, stack.enter_context(show.ProgressLine(companion, meter, out))]
+        wall, cpu = time.perf_counter(), time.process_time()
+        end_us = fly_lockstep(companion, vehicle, LINK, planning, taps, limit_s=LIMIT_S)
+        wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     verdict = judge(companion, meter)
     simulated_s, sha256 = end_us / 1e6, recording.outputs.hexdigest()
     result = {
         **show.verdict_json(verdict),
         "recording": None if record is None else str(record),
-        "messages_recorded": total(recorder.counters),
+        "messages_recorded": 0 if recorder is None else total(recorder.counters),
         "speedup": simulated_s / wall,
         "cpu_ms_per_sim_s": 1e3 * cpu / simulated_s,
         "outputs_sha256": sha256,
@@ -60,6 +58,8 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
         show.print_json(result)
     else:
         speed = f"{result['speedup']:.0f} x real time, {result['cpu_ms_per_sim_s']:.1f} ms of CPU a simulated second"
-        details = {"messages": str(result["messages_recorded"]), "speed": speed, "outputs": f"sha256 {sha256}"}
-        show.print_verdict(verdict, mission.expect, details | ({"recording": str(record)} if record else {}), Console())
+        details = {"speed": speed, "outputs": f"sha256 {sha256}"}
+        if record is not None:
+            details |= {"messages": str(result["messages_recorded"]), "recording": str(record)}
+        show.print_verdict(verdict, mission.expect, details, Console())
     return 0 if verdict.ok else 1

@@ -5,7 +5,7 @@ arrival, what left with the moment it had left; both carry the tick's number (do
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -113,40 +113,47 @@ def total(counters: RecorderCounters) -> int:
 
 
 class RecordingTap:
-    """Writes every tick to a recorder: inputs, the tick itself, outputs.
+    """Writes every tick to a recorder, if there is one: inputs, the tick itself, outputs.
 
     Attributes
     ----------
     outputs : hash of all outputs so far.
     """
 
-    def __init__(self, companion: Companion, recorder: Recorder) -> None:
+    def __init__(self, companion: Companion, recorder: Recorder | None) -> None:
         self._companion, self._recorder = companion, recorder
         self.outputs = OutputHash()
 
     def __call__(self, tick: Tick) -> None:
-        inputs, ticked, outputs = entries(tick, self._companion)
-        for (received_us, _), entry in zip(tick.inputs, inputs, strict=True):
-            self._write(tick, "rx", received_us, entry)
-        self._write(tick, "tx", tick.sent_us, ticked)
-        for entry, output in zip(outputs, compared(tick.index, outputs), strict=True):
-            self._write(tick, "tx", tick.sent_us, entry)
+        phase = self._companion.phase.value
+        outputs = entries(tick.outputs, phase)
+        for output in compared(tick.index, outputs):
             self.outputs.add(output)
+        if self._recorder is None:
+            return
+        inputs = entries((item for _, item in tick.inputs), phase)
+        for (received_us, _), entry in zip(tick.inputs, inputs, strict=True):
+            _write(self._recorder, tick, "rx", received_us, entry)
+        for entry in (tick_record(tick, inputs), *outputs):
+            _write(self._recorder, tick, "tx", tick.sent_us, entry)
 
-    def _write(self, tick: Tick, direction: Direction, stamp_us: int, entry: Entry) -> None:
-        at: dict[str, int] = {"log_time_ns": stamp_us * 1000, "now_us": tick.now_us, "tick": tick.index}
-        if isinstance(entry, Datagram):
-            self._recorder.datagram(entry.link, direction, entry.data, peer=entry.peer, **at)
-        else:
-            self._recorder.message(schema.TOPICS[type(entry)], entry, **at)
+
+def _write(recorder: Recorder, tick: Tick, direction: Direction, stamp_us: int, entry: Entry) -> None:
+    at: dict[str, int] = {"log_time_ns": stamp_us * 1000, "now_us": tick.now_us, "tick": tick.index}
+    if isinstance(entry, Datagram):
+        recorder.datagram(entry.link, direction, entry.data, peer=entry.peer, **at)
+    else:
+        recorder.message(schema.TOPICS[type(entry)], entry, **at)
 
 
-def entries(tick: Tick, companion: Companion) -> tuple[list[Entry], schema.Tick, list[Entry]]:
-    """A tick as a recording keeps it: its inputs, its own record, its outputs."""
-    phase = companion.phase.value
-    inputs = [item if isinstance(item, Datagram) else to_record(item, phase) for _, item in tick.inputs]
-    outputs = [item if isinstance(item, Datagram) else to_record(item, phase) for item in tick.outputs]
-    return inputs, schema.Tick(tick.now_us, len(inputs), len(outputs), inputs_digest(inputs)), outputs
+def entries(items: Iterable[Input | Output], phase: str) -> list[Entry]:
+    """Inputs or outputs as a recording keeps them."""
+    return [item if isinstance(item, Datagram) else to_record(item, phase) for item in items]
+
+
+def tick_record(tick: Tick, inputs: Sequence[Entry]) -> schema.Tick:
+    """The tick's own record; `inputs` as `entries` gives them."""
+    return schema.Tick(tick.now_us, len(tick.inputs), len(tick.outputs), inputs_digest(inputs))
 
 
 def compared(index: int, outputs: Sequence[Entry]) -> list[Compared]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from companion.core import Companion, CompanionConfig
-from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, to_input
+from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, tick_record, to_input
 from companion.drivers.tick import Tick
 from companion.errors import RerunError
 from companion.mission import parse_mission
@@ -63,8 +63,9 @@ def rerun(recording: Recording, progress: Callable[[Tick], None] = lambda tick: 
         tick = Tick(row.index, row.now_us, inputs, outputs, row.now_us)
         assert row.declared is not None  # `ticks` yields no row without it
         recorded.extend(compared(row.index, [row.declared, *(entry for _, entry in row.outputs)]))
-        _, ticked, out = entries(tick, companion)
-        produced.extend(compared(row.index, [ticked, *out]))
+        phase = companion.phase.value
+        ticked = tick_record(tick, entries((item for _, item in inputs), phase))
+        produced.extend(compared(row.index, [ticked, *entries(outputs, phase)]))
         progress(tick)
         first_us = row.now_us if count == 0 else first_us
         last_us, count = row.now_us, count + 1

@@ -1,0 +1,76 @@
+"""What the companion reads is what the dialect says, whatever MAVLink 2 cut off the end."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from companion import fields
+from companion.autopilots.px4 import Px4
+from companion.telemetry import Telemetry
+from wire.dialect import mavlink
+from wire.framing import Framer
+
+floats = st.floats(width=32, allow_nan=False)
+ints = st.integers(-(2**31), 2**31 - 1)
+MAV = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+
+
+def packet(message):
+    (found,) = Framer().packets(bytes(message.pack(MAV)))
+    return found, MAV.decode(bytearray(found.raw))
+
+
+@given(st.lists(floats, min_size=6, max_size=6))
+def test_a_local_position_is_what_decode_reads(values):
+    found, m = packet(mavlink.MAVLink_local_position_ned_message(7, *values))
+    assert fields.local_position_ned(found.payload) == (m.x, m.y, m.z, m.vx, m.vy, m.vz)
+
+
+@given(st.lists(floats, min_size=6, max_size=6))
+def test_a_yaw_is_what_decode_reads(values):
+    found, m = packet(mavlink.MAVLink_attitude_message(7, *values))
+    assert fields.attitude_yaw(found.payload) == m.yaw
+
+
+@given(ints, ints, ints)
+def test_a_truth_is_what_decode_reads(lat, lon, alt):
+    message = mavlink.MAVLink_hil_state_quaternion_message(
+        2**40, [1.0, 0.5, 0.25, 0.125], 1, 2, 3, lat, lon, alt, 4, 5, 6, 7, 8, 9, 10, 11
+    )
+    found, m = packet(message)
+    assert fields.truth_position(found.payload) == (m.lat, m.lon, m.alt) == (lat, lon, alt)
+
+
+def take(telemetry, *messages):
+    for message in messages:
+        telemetry.take(1_000, packet(message)[0], MAV)
+
+
+def test_a_statustext_in_chunks_is_put_together():
+    telemetry = Telemetry()
+    take(telemetry, mavlink.MAVLink_statustext_message(2, b"Arming denied: Resolve system health failures firs", 9, 0))
+    assert not telemetry.texts
+    take(telemetry, mavlink.MAVLink_statustext_message(2, b"t", 9, 1))
+    assert telemetry.texts == [(2, "Arming denied: Resolve system health failures first")]
+
+
+def test_a_position_that_is_not_finite_is_no_position():
+    telemetry = Telemetry()
+    take(telemetry, mavlink.MAVLink_local_position_ned_message(7, float("nan"), 0, 0, 0, 0, 0))
+    assert telemetry.position_us is None
+    np.testing.assert_array_equal(telemetry.position_n, 0)
+
+
+@pytest.mark.parametrize(("value", "warns"), [(0, True), (3, True), (4, False), (5, False), (-1, True)])
+def test_px4_is_warned_about_when_losing_the_stream_would_end_in_neither_hold_nor_land(value, warns):
+    telemetry = Telemetry(parameters={"COM_OBL_RC_ACT": b""})
+    bytewise = np.array(value, dtype="<i4").view("<f4").item()  # PX4 puts an INT32's bytes into the float
+    take(telemetry, mavlink.MAVLink_param_value_message(b"COM_OBL_RC_ACT", bytewise, 6, 1, 0))
+    assert bool(Px4().warnings(telemetry)) is warns
+
+
+def test_a_parameter_nobody_asked_for_is_not_kept():
+    telemetry = Telemetry()
+    take(telemetry, mavlink.MAVLink_param_value_message(b"OTHER", 1.0, 9, 1, 0))
+    assert not telemetry.parameters
