@@ -297,7 +297,8 @@ class Companion:
                 self._read_parameters(out)
             case Phase.PLANNING:
                 out.extend(Note(Level.WARNING, text) for text in self.autopilot.warnings(self.telemetry))
-                out.extend(self.itinerary.wanted())
+                self._plan_refusal = self.itinerary.obstruction()
+                out.extend([] if self._plan_refusal else self.itinerary.wanted())
             case Phase.ENGAGING:
                 self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
                 self.itinerary.yaw = self.telemetry.yaw

@@ -4,6 +4,7 @@ Legs are planned before anything moves (`wanted`); takeoff is a straight climb, 
 where this file ends: the vehicle lands by itself. Everything here is in the mission frame (NED).
 """
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,6 +16,9 @@ from planner import Limits, Trajectory
 
 SPOOL_UP_S = 1.0
 """Between the word that it is armed and the first climb: PX4 spools its motors up for COM_SPOOLUP_TIME, 1 s."""
+
+COLUMN_STEP = 0.02
+"""Spacing of the samples along climb and landing [m]."""
 
 Path = StraightMove | Trajectory
 
@@ -72,6 +76,26 @@ class Itinerary:
     def take(self, request_id: int, trajectory: Trajectory) -> None:
         """Keep the trajectory of one leg."""
         self._paths[request_id] = trajectory
+
+    def obstruction(self) -> str:
+        """Why the climb or the landing cannot be flown, or nothing.
+
+        Both are vertical, through the points where takeoff and mission end. They keep the planner's radius from every
+        obstacle; samples every `COLUMN_STEP` prove it for all between, since a distance changes no faster than the
+        point moves. From the map's walls the upper end keeps the radius; the ground is what they lead to.
+        """
+        world, radius = self.mission.planner_world(), self.mission.planner_radius()
+        for what, top in (("the climb", self._ends[0]), ("the landing", self._ends[-2])):
+            place = f"north {top[0]:g}, east {top[1]:g}, altitude {-top[2]:g}"
+            margin = float(world.wall_distance(top[None])[0]) - radius
+            if margin < 0.0:
+                return f"{what} at {place} is {-margin:.2f} m too near the bounds (it keeps {radius:g} m)"
+            column = np.repeat(top[None], max(2, math.ceil(-top[2] / COLUMN_STEP) + 1), axis=0)
+            column[:, 2] = np.linspace(0.0, top[2], len(column))
+            least = float(world.distance(column).min()) - abs(top[2]) / (len(column) - 1) / 2.0
+            if least < radius:
+                return f"{what} at {place} is {radius - least:.2f} m too near an obstacle (it keeps {radius:g} m)"
+        return ""
 
     def planned(self) -> bool:
         """Whether every leg has its trajectory."""

@@ -116,7 +116,7 @@ def log_info(log: LogFile, json: Json = False) -> None:
 
 
 def main() -> None:
-    """Console script; turns known errors into one line and exit code 1."""
+    """Console script; turns known errors into one line (and a JSON object, if asked) and exit code 1."""
     try:
         app()
     except Exception as error:
@@ -124,6 +124,10 @@ def main() -> None:
         if not isinstance(error, roots):
             raise
         print(f"companion: {error}", file=sys.stderr)
+        if "--json" in sys.argv:
+            from companion.cli.show import print_json
+
+            print_json({"ok": False, "error": str(error)})
         sys.exit(2 if type(error).__name__ == "EndpointError" else 1)
 
 

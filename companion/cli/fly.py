@@ -12,6 +12,7 @@ from importlib import resources
 from pathlib import Path
 from types import FrameType
 
+import numpy as np
 from rich.console import Console
 
 from companion.cli import show
@@ -70,7 +71,7 @@ def fly_demo(record: Path, outs: list[str], seed: int, as_json: bool) -> int:
     file = recording_file(record, mission)
     with UdpLink(VEHICLE_LINK, Endpoint.parse("udpin:127.0.0.1:0")) as link:
         host, port = link.local_address
-        vehicle = start_vehicle(mission, f"udpout:{host}:{port}", seed, file.with_suffix(".vehicle.log"))
+        vehicle = start_vehicle(mission, f"udpout:{host}:{port}", seed, _vehicle_log(file))
         try:
             config = CompanionConfig(seed=seed, ground_links=ground_links(outs))
             return _fly(mission, data, link, outs, file, config, as_json, watch=vehicle)
@@ -138,7 +139,8 @@ def _fly(
         planning = WorkerPlanning(mission.planner_world())
         stack.callback(planning.close)
         with show.working(out, "compiling kernels (only the first time)"):
-            while not planning.warmed.done() and not operator.stop():
+            mission.planner_world().distance(np.zeros((1, 3)))
+            while not planning.warmed() and not operator.asked:
                 time.sleep(0.05)
         endpoints = {name: str(link.endpoint) for name, link in links.items()}
         recorder = stack.enter_context(
@@ -151,7 +153,7 @@ def _fly(
         )
         recorder.metadata("sockets", {k: str(v) for name, link in links.items() for k, v in _socket(name, link)})
     if not companion.over:
-        companion.failure = companion.failure or _why_stopped(watch)
+        companion.failure = companion.failure or _why_stopped(watch, file)
     verdict = judge(companion, meter)
     counters = recorder.counters
     drops = {
@@ -184,7 +186,12 @@ def _ended(process: "subprocess.Popen[bytes] | None") -> bool:
     return process is not None and process.poll() is not None
 
 
-def _why_stopped(process: "subprocess.Popen[bytes] | None") -> str:
+def _why_stopped(process: "subprocess.Popen[bytes] | None", file: Path) -> str:
     if process is not None and process.poll() is not None:
-        return f"the vehicle process ended with exit code {process.returncode}"
-    return "stopped by the operator in mid-flight"
+        return f"the vehicle process ended with exit code {process.returncode}: see {_vehicle_log(file)}"
+    return "stopped by the operator"
+
+
+def _vehicle_log(file: Path) -> Path:
+    """Where the demo keeps what its vehicle printed."""
+    return file.with_suffix(".vehicle.log")

@@ -2,9 +2,9 @@
 
 import os
 import signal
-from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
+from multiprocessing.pool import AsyncResult
 from typing import Protocol
 
 from companion.seam import PlanReady, PlanWanted
@@ -84,7 +84,10 @@ def _enter_worker(world: World) -> None:
 
 def _answer_in_worker(wanted: PlanWanted) -> PlanReady:
     assert _world is not None
-    return answer(_world, wanted)
+    try:
+        return answer(_world, wanted)
+    except Exception as error:  # a fault of ours must end in a refusal on the ground, not in the flight loop
+        return PlanReady(wanted.request_id, None, error=type(error).__name__, text=str(error), method=wanted.method)
 
 
 class WorkerPlanning:
@@ -96,25 +99,31 @@ class WorkerPlanning:
     """
 
     def __init__(self, world: World) -> None:
-        self._pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=_enter_worker, initargs=(world,))
-        self._pending: list[tuple[PlanWanted, Future[PlanReady]]] = []
-        self.warmed: Future[None] = self._pool.submit(warm_up)  # done when its kernels are compiled
+        self._pool = get_context("spawn").Pool(1, initializer=_enter_worker, initargs=(world,))
+        self._warming = self._pool.apply_async(warm_up)
+        self._pending: list[AsyncResult[PlanReady]] = []
+
+    def warmed(self) -> bool:
+        """Whether the worker's kernels are compiled.
+
+        Raises
+        ------
+        Exception : whatever kept them from it.
+        """
+        if not self._warming.ready():
+            return False
+        self._warming.get()
+        return True
 
     def submit(self, wanted: PlanWanted) -> None:
-        self._pending.append((wanted, self._pool.submit(_answer_in_worker, wanted)))
+        self._pending.append(self._pool.apply_async(_answer_in_worker, (wanted,)))
 
     def ready(self) -> list[PlanReady]:
-        done = [(wanted, future) for wanted, future in self._pending if future.done()]
-        self._pending = [pair for pair in self._pending if not pair[1].done()]
-        return [_result(wanted, future) for wanted, future in done]
+        done = [result for result in self._pending if result.ready()]
+        self._pending = [result for result in self._pending if result not in done]
+        return [result.get() for result in done]
 
     def close(self) -> None:
-        """End the worker; whatever it still plans is dropped."""
-        self._pool.shutdown(wait=False, cancel_futures=True)
-
-
-def _result(wanted: PlanWanted, future: "Future[PlanReady]") -> PlanReady:
-    error = future.exception()
-    if error is None:
-        return future.result()
-    return PlanReady(wanted.request_id, None, error=type(error).__name__, text=str(error), method=wanted.method)
+        """End the worker at once; whatever it still plans is dropped."""
+        self._pool.terminate()
+        self._pool.join()
