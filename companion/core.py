@@ -5,7 +5,7 @@ One tick, in this order:
    each other;
 2. look at what happened and move to the next phase at most once (`phases.py` is the table);
 3. do the phase's work: ask, wait, or walk the mission's steps;
-4. stream: HEARTBEAT at 1 Hz, a setpoint every tick from ENGAGING on.
+4. stream: HEARTBEAT at 1 Hz, a setpoint every tick from PLANNING on.
 
 No clock, no socket, no randomness, no logging: the same inputs at the same `now_us` give the same outputs, which makes
 a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing.
@@ -87,6 +87,7 @@ class Companion:
         self._sequence = 0
         self._started_us: int | None = None
         self._entered_us = 0
+        self._streaming_us = 0
         self._heartbeat_due_us = 0
         self._command: Command | None = None
         self._queue: list[Command] = []
@@ -296,12 +297,12 @@ class Companion:
                 self.telemetry.parameters = {name: b"" for name in self.autopilot.parameters_wanted()}
                 self._read_parameters(out)
             case Phase.PLANNING:
+                self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
+                self.itinerary.yaw = self.telemetry.yaw
+                self._streaming_us = now_us
                 out.extend(Note(Level.WARNING, text) for text in self.autopilot.warnings(self.telemetry))
                 self._plan_refusal = self.itinerary.obstruction()
                 out.extend([] if self._plan_refusal else self.itinerary.wanted())
-            case Phase.ENGAGING:
-                self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
-                self.itinerary.yaw = self.telemetry.yaw
             case Phase.ARMING:
                 self._command = self.autopilot.arm()
             case Phase.FLYING:
@@ -313,7 +314,7 @@ class Companion:
         """Keep the command under way going; in PREPARING the next of the queue, in ENGAGING the mode."""
         if self.phase is Phase.PREPARING and self._command is None and self._queue:
             self._command = self._queue.pop(0)
-        streamed = now_us - self._entered_us >= STREAM_BEFORE_ASKING_US
+        streamed = now_us - self._streaming_us >= STREAM_BEFORE_ASKING_US
         if self.phase is Phase.ENGAGING and self._command is None and streamed:
             self._command = self.autopilot.take_control()
         if self._command is not None and self._command.due(now_us):

@@ -10,7 +10,7 @@ not know.
     CONNECTING --vehicle heard--> PREPARING --ready--> PLANNING --plans ready--> ENGAGING --mode confirmed--> ARMING
     ARMING --armed--> FLYING --steps done--> LANDING --disarmed--> DONE
 
-From ENGAGING on setpoints are streamed; before FLYING nothing has left the ground, so a refusal ends in FAILED. In the
+From PLANNING on setpoints are streamed; before FLYING nothing has left the ground, so a refusal ends in FAILED. In the
 air the only way out is down: the operator's land and a plan that cannot be had both go to LANDING. Two things end a
 flight without landing it: a pilot (or a failsafe) who takes the mode is never fought (HANDED_OVER), and a vehicle that
 falls silent cannot be helped (FAILED).
@@ -22,8 +22,8 @@ from enum import Enum
 class Phase(Enum):
     CONNECTING = "connecting"  # no HEARTBEAT yet
     PREPARING = "preparing"  # streams and parameters asked for; waiting until the vehicle says it could arm
-    PLANNING = "planning"  # every leg is planned before anything moves
-    ENGAGING = "engaging"  # setpoints stream; asking for the mode that obeys them
+    PLANNING = "planning"  # every leg is planned before anything moves; setpoints hold the place on the ground
+    ENGAGING = "engaging"  # asking for the mode that obeys them
     ARMING = "arming"
     FLYING = "flying"  # the mission's steps, takeoff included
     LANDING = "landing"
@@ -77,7 +77,7 @@ TRANSITIONS: dict[tuple[Phase, Event], Phase] = {
     (Phase.LANDING, Event.VEHICLE_SILENT): Phase.FAILED,
 }
 
-STREAMING = frozenset({Phase.ENGAGING, Phase.ARMING, Phase.FLYING, Phase.LANDING})
+STREAMING = frozenset({Phase.PLANNING, Phase.ENGAGING, Phase.ARMING, Phase.FLYING, Phase.LANDING})
 """Phases in which a setpoint leaves every tick (in LANDING until the vehicle confirms that it lands by itself)."""
 
 OVER = frozenset({Phase.DONE, Phase.FAILED, Phase.HANDED_OVER})

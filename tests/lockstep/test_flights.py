@@ -97,7 +97,9 @@ def test_a_mission_without_a_path_is_refused_on_the_ground_with_the_planners_rea
     assert flight.companion.phase is Phase.FAILED
     assert "NoPathFound" in flight.verdict.failure
     assert not any("armed" in note for note in flight.notes)
-    assert not sent(flight, mavlink.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED)
+    mav = mavlink.MAVLink(None)
+    asked = [mav.decode(bytearray(p.raw)).command for _, p in sent(flight, mavlink.MAVLINK_MSG_ID_COMMAND_LONG)]
+    assert set(asked) == {mavlink.MAV_CMD_SET_MESSAGE_INTERVAL}
 
 
 class Silent:
