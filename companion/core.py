@@ -94,6 +94,7 @@ class Companion:
         self._land_asked = False
         self._plan_refusal = ""
         self._was_landing = False
+        self._withheld = False
         self._readiness: tuple[str, ...] = ()
 
     # ---- one tick -----------------------------------------------------------------------------------------------
@@ -138,7 +139,7 @@ class Companion:
                 for packet in self.framer.packets(data):
                     self._hear(now_us, packet, peer)
                 out.extend(Datagram(ground, data) for ground in self.config.ground_links)
-            case Datagram(link=link, data=data) if link in self.config.ground_links:
+            case Datagram(link=link, data=data) if link in self.config.ground_links and self._may_speak:
                 out.append(Datagram(VEHICLE_LINK, data, self._vehicle_peer))
             case PlanReady():
                 self._take_plan(item, out)
@@ -158,6 +159,8 @@ class Companion:
         self.telemetry.take(now_us, packet, self._mav)
 
     def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
+        if self.phase is not Phase.PLANNING or not self.itinerary.wants(ready.request_id):
+            return  # an answer to nothing that was asked
         leg = f"leg {ready.request_id}"
         if ready.trajectory is None or not ready.certified:
             self._plan_refusal = f"{leg}: {ready.error or 'not certified'}: {ready.text}"
@@ -330,21 +333,31 @@ class Companion:
     def _stream(self, now_us: int, out: list[Output]) -> None:
         if now_us >= self._heartbeat_due_us:
             self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
-            if self._heard_us is not None or self.config.speaks_first:
+            if self._may_speak:
                 out.append(self._packet(self._heartbeat()))
         if self.phase not in STREAMING or self._was_landing:
             return
         reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
         message = setpoint_message(reference, self.origin_n, time_boot_ms, self._target)
-        if message is not None:
-            out.append(reference)
-            out.append(self._packet(message))
+        if message is None:
+            if not self._withheld:
+                out.append(Note(Level.ERROR, "the setpoint is not a place to fly to: none is sent"))
+            self._withheld = True
+            return
+        self._withheld = False
+        out.append(reference)
+        out.append(self._packet(message))
 
     def _heartbeat(self) -> Any:
         state = mavlink.MAV_STATE_ACTIVE if self.phase in STREAMING else mavlink.MAV_STATE_STANDBY
         kind = mavlink.MAV_TYPE_ONBOARD_CONTROLLER
         return mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)
+
+    @property
+    def _may_speak(self) -> bool:
+        """Whether there is somebody to speak to: the vehicle was heard, or it waits to be called."""
+        return self._heard_us is not None or self.config.speaks_first
 
     @property
     def _target(self) -> int:

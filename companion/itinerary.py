@@ -73,6 +73,10 @@ class Itinerary:
             if step.goto is not None
         ]
 
+    def wants(self, request_id: int) -> bool:
+        """Whether this is the number of a leg."""
+        return 0 <= request_id < len(self.mission.steps) and self.mission.steps[request_id].goto is not None
+
     def take(self, request_id: int, trajectory: Trajectory) -> None:
         """Keep the trajectory of one leg."""
         self._paths[request_id] = trajectory

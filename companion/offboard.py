@@ -40,6 +40,9 @@ def type_mask(*, position: bool, velocity: bool, acceleration: bool, yaw: bool, 
     return mask
 
 
+FARTHEST = 1e6
+"""Nothing we ask for is larger than this in m, m/s, m/s^2 or rad."""
+
 FULL = type_mask(position=True, velocity=True, acceleration=True, yaw=True, yaw_rate=False)
 """Position, velocity, acceleration and yaw: 0x800. Position alone would be input-shaped by the autopilot, and late."""
 
@@ -56,11 +59,11 @@ def setpoint_message(reference: Reference, origin_n: FloatArray, time_boot_ms: i
 
     Returns
     -------
-    The message, or None when any number is not finite: such a setpoint is never sent.
+    The message, or None when a number is not finite or beyond `FARTHEST`: such a setpoint is never sent.
     """
     p = reference.position_m + origin_n
     v, a = reference.velocity_m, reference.acceleration_m
-    if not (np.isfinite(p).all() and np.isfinite(v).all() and np.isfinite(a).all() and np.isfinite(reference.yaw)):
+    if not all(abs(number) <= FARTHEST for number in (*p, *v, *a, reference.yaw)):  # false for NaN, too
         return None
     frame = mavlink.MAV_FRAME_LOCAL_NED
     return mavlink.MAVLink_set_position_target_local_ned_message(

@@ -53,8 +53,8 @@ def test_a_setpoint_is_the_bytes_that_the_mavlink_definition_gives():
 
 
 @pytest.mark.parametrize("field", ["position_m", "velocity_m", "acceleration_m"])
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_a_setpoint_that_is_not_finite_is_never_made(field, bad):
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1e39])
+def test_a_setpoint_that_is_not_finite_or_beyond_reason_is_never_made(field, bad):
     message = setpoint_message(reference(**{field: np.array([0.0, bad, 0.0])}), np.zeros(3), 0, 1)
     assert message is None
     assert setpoint_message(reference(yaw=bad), np.zeros(3), 0, 1) is None
