@@ -1,12 +1,15 @@
 """Whatever a peer sends, the companion neither raises nor obeys; and the same inputs give the same outputs."""
 
+import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from companion.core import VEHICLE_LINK, Companion, CompanionConfig
+from companion.itinerary import Itinerary
 from companion.mission import load_mission
 from companion.phases import Phase
-from companion.seam import Note, OperatorCommand, PlanReady
+from companion.seam import Note, OperatorCommand, PlanReady, Reference
+from planner import Trajectory
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -59,6 +62,29 @@ def test_any_inputs_give_outputs_never_an_exception_and_twice_the_same(ticks):
     for k, inputs in enumerate(ticks):
         now_us = k * 200_000
         assert repr(first.step(now_us, inputs)) == repr(second.step(now_us, inputs))
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    places=st.lists(st.lists(floats, min_size=6, max_size=6), min_size=12, max_size=40),
+    modes=st.lists(st.sampled_from([0x3040000, 0x60000, 0x60000, 0x60000, 0x6040000]), min_size=40, max_size=40),
+    armed_from=st.integers(5, 40),
+)
+def test_a_ready_vehicle_that_is_anywhere_in_any_mode_never_makes_the_companion_raise(places, modes, armed_from):
+    companion = Companion(MISSION, CompanionConfig())
+    (wanted,) = Itinerary(MISSION, 0).wanted()
+    there = np.linspace(wanted.start_m, wanted.goal_m, 8)
+    plan = PlanReady(2, Trajectory(there, np.array([0, 0, 0, 0, 1, 2, 3, 4, 5, 5, 5, 5.0])), certified=True)
+    for k, (place, mode) in enumerate(zip(places, modes, strict=False)):
+        beat = mavlink.MAVLink_heartbeat_message(2, 12, 0x81 if k >= armed_from else 0x01, mode, 4, 3)
+        health = mavlink.MAVLink_sys_status_message(0, 0, 2**28, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+        estimator = mavlink.MAVLink_estimator_status_message(0, 0x3FF, *[0.0] * 8)
+        attitude = mavlink.MAVLink_attitude_message(0, 0, 0, place[5], 0, 0, 0)
+        acks = [mavlink.MAVLink_command_ack_message(c, 0) for c in (511, 176, 400)]
+        position = mavlink.MAVLink_local_position_ned_message(0, *place)
+        said = packets_of(1, 1, [beat, health, estimator, attitude, position, *acks])
+        out = companion.step(k * 250_000, [*(Datagram(VEHICLE_LINK, data) for data in said), plan])
+        assert all(np.isfinite(o.position_m).all() for o in out if isinstance(o, Reference))
 
 
 @settings(max_examples=60, deadline=None)
