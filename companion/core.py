@@ -161,14 +161,15 @@ class Companion:
     def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
         if self.phase is not Phase.PLANNING or not self.itinerary.wants(ready.request_id):
             return  # an answer to nothing that was asked
-        leg = f"leg {ready.request_id}"
+        leg = f"step {ready.request_id}"
         if ready.trajectory is None or not ready.certified:
-            self._plan_refusal = f"{leg}: {ready.error or 'not certified'}: {ready.text}"
+            self._plan_refusal = f"{leg}: {ready.text or ready.error or 'not certified'}"
             return
         self.itinerary.take(ready.request_id, ready.trajectory)
         duration = ready.trajectory.duration
         how = ready.method + ("" if math.isnan(ready.cpu_ms) else f", {ready.cpu_ms:.1f} ms")
-        text = f"{leg} planned: {ready.length:.2f} m in {duration:.2f} s, clear by {ready.clearance:.2f} m ({how})"
+        spare = f"{ready.clearance:.2f} m clear beyond what is kept"
+        text = f"{leg} planned: {ready.length:.2f} m in {duration:.2f} s, {spare} ({how})"
         out.append(Note(Level.INFO, text))
 
     def _report_texts(self, out: list[Output]) -> None:
@@ -188,11 +189,13 @@ class Companion:
     def _event(self, now_us: int, out: list[Output]) -> Event | None:
         """The one event of this tick, most urgent first."""
         if self._heard_us is not None and now_us - self._heard_us > VEHICLE_SILENT_US:
-            self.failure = f"nothing heard from the vehicle for {(now_us - self._heard_us) / 1e6:.1f} s"
+            self._blame(f"nothing heard from the vehicle for {(now_us - self._heard_us) / 1e6:.1f} s")
             return Event.VEHICLE_SILENT
         if self._land_asked and self.phase is not Phase.LANDING:
             self._land_asked = False
-            self.failure = "cancelled by the operator" + (", landing" if self.phase is Phase.FLYING else "")
+            self._blame("cancelled by the operator")
+            if self.phase is Phase.FLYING:
+                out.append(Note(Level.WARNING, "the operator asks to land; asking again stops without landing"))
             return Event.LAND_ASKED
         return WATCH[self.phase](self, now_us, out)
 
@@ -268,8 +271,15 @@ class Companion:
             self._command = self.autopilot.land()
         return None
 
+    def _handed_over(self, now_us: int, out: list[Output]) -> Event | None:
+        return None if self.telemetry.armed else Event.DISARMED
+
     def _nothing(self, now_us: int, out: list[Output]) -> Event | None:
         return None
+
+    def _blame(self, why: str) -> None:
+        """Keep the reason; what follows from an earlier trouble does not replace it."""
+        self.failure = self.failure or why
 
     def _refused(self, why: str) -> Event:
         self.failure = why
@@ -334,7 +344,9 @@ class Companion:
         if now_us >= self._heartbeat_due_us:
             self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
             if self._may_speak:
-                out.append(self._packet(self._heartbeat()))
+                beat = self._packet(self._heartbeat())
+                out.append(beat)
+                out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if self.phase not in STREAMING or self._was_landing:
             return
         reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned
@@ -381,6 +393,6 @@ WATCH: dict[Phase, Callable[[Companion, int, list[Output]], Event | None]] = {
     Phase.LANDING: Companion._landing,
     Phase.DONE: Companion._nothing,
     Phase.FAILED: Companion._nothing,
-    Phase.HANDED_OVER: Companion._nothing,
+    Phase.HANDED_OVER: Companion._handed_over,
 }
 """What each phase watches for."""

@@ -4,9 +4,10 @@ Coordinates are named (north, east, altitude), never a bare triple whose sign mu
 with file, line, key, what was found and what was expected, all at once. The file is read with PyYAML's safe loader.
 """
 
+import difflib
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
@@ -281,6 +282,9 @@ def parse_mission(data: bytes, file: str) -> Mission:
         raise MissionError(
             file, [f"line 1: found {_shown(document)}, expected a mapping with name, vehicle, world, steps"]
         )
+    twice = _repeated_keys(node)
+    if twice:
+        raise MissionError(file, twice)
     try:
         return Mission.model_validate(document)
     except ValidationError as error:
@@ -295,13 +299,46 @@ def _problem(item: Any, root: yaml.Node | None) -> str:
     if kind == "missing":
         return f"line {line}: {key}: found nothing, expected a value"
     if kind == "extra_forbidden":
-        return f"line {line}: {key}: found an unknown key, expected one that the mission format names"
+        near = difflib.get_close_matches(str(keys[-1]), _all_keys(Mission), n=1)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        return f"line {line}: {key}: found an unknown key, expected one of docs/mission.md{meant}"
+    if kind == "model_type":
+        return f"line {line}: {key}: found {_shown(item['input'])}, expected a mapping"
     if kind == "literal_error":
         return f"line {line}: {key}: found {_shown(item['input'])}, expected {context.get('expected')}"
     if kind == "value_error":
         return f"line {line}: {key}: {message}" + ("" if "found" in message else f", found {_shown(item['input'])}")
     expected = message.removeprefix("Input should be ").split(", unable")[0]
     return f"line {line}: {key}: found {_shown(item['input'])}, expected {expected}"
+
+
+def _repeated_keys(root: yaml.Node | None) -> list[str]:
+    """YAML would silently keep the last of two equal keys."""
+    problems, waiting = [], [] if root is None else [root]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, yaml.MappingNode):
+            seen: set[str] = set()
+            for key, value in node.value:
+                if key.value in seen:
+                    problems.append(f"line {key.start_mark.line + 1}: {key.value}: found twice, expected once")
+                seen.add(key.value)
+                waiting.append(value)
+        elif isinstance(node, yaml.SequenceNode):
+            waiting.extend(node.value)
+    return problems
+
+
+def _all_keys(model: type[BaseModel]) -> set[str]:
+    """Every key that the mission format knows, at any depth."""
+    keys: set[str] = set()
+    for name, entry in model.model_fields.items():
+        keys.add(name)
+        inner = [entry.annotation, *get_args(entry.annotation)]
+        for kind in inner:
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                keys |= _all_keys(kind)
+    return keys
 
 
 def _shown(value: Any) -> str:

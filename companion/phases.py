@@ -11,9 +11,9 @@ not know.
     ARMING --armed--> FLYING --steps done--> LANDING --disarmed--> DONE
 
 From PLANNING on setpoints are streamed; before FLYING nothing has left the ground, so a refusal ends in FAILED. In the
-air the only way out is down: the operator's land and a plan that cannot be had both go to LANDING. Two things end a
-flight without landing it: a pilot (or a failsafe) who takes the mode is never fought (HANDED_OVER), and a vehicle that
-falls silent cannot be helped (FAILED).
+air the only way out is down: the operator who asks to land gets a landing. Two things end a flight without landing it: a
+pilot (or a failsafe) who takes the mode is never fought (HANDED_OVER: we look on, forward and record until the vehicle
+disarms), and a vehicle that falls silent cannot be helped (FAILED).
 """
 
 from enum import Enum
@@ -29,7 +29,7 @@ class Phase(Enum):
     LANDING = "landing"
     DONE = "done"  # landed and disarmed as planned
     FAILED = "failed"
-    HANDED_OVER = "handed over"  # somebody else flies
+    HANDED_OVER = "handed over"  # somebody else flies; we look on until it is over
 
 
 class Event(Enum):
@@ -75,12 +75,15 @@ TRANSITIONS: dict[tuple[Phase, Event], Phase] = {
     (Phase.LANDING, Event.DISARMED): Phase.DONE,
     (Phase.LANDING, Event.MODE_LOST): Phase.HANDED_OVER,
     (Phase.LANDING, Event.VEHICLE_SILENT): Phase.FAILED,
+    (Phase.HANDED_OVER, Event.DISARMED): Phase.FAILED,
+    (Phase.HANDED_OVER, Event.VEHICLE_SILENT): Phase.FAILED,
+    (Phase.HANDED_OVER, Event.LAND_ASKED): Phase.FAILED,
 }
 
 STREAMING = frozenset({Phase.PLANNING, Phase.ENGAGING, Phase.ARMING, Phase.FLYING, Phase.LANDING})
 """Phases in which a setpoint leaves every tick (in LANDING until the vehicle confirms that it lands by itself)."""
 
-OVER = frozenset({Phase.DONE, Phase.FAILED, Phase.HANDED_OVER})
+OVER = frozenset({Phase.DONE, Phase.FAILED})
 """Phases in which the companion has nothing more to do."""
 
 

@@ -44,6 +44,7 @@ class Telemetry:
     landed_state: int = 0  # MAV_LANDED_STATE
     prearm_ok: bool = False  # SYS_STATUS: every pre-arm check passes
     estimator_flags: int | None = None  # ESTIMATOR_STATUS_FLAGS
+    rejected: list[tuple[str, float]] = field(default_factory=list)  # innovations outside their gate, with the ratio
     parameters: dict[str, bytes] = field(default_factory=dict)  # the raw four bytes of param_value, for those asked for
     acks: list[Ack] = field(default_factory=list)  # taken and emptied once a tick
     texts: list[tuple[int, str]] = field(default_factory=list)  # (severity, text) of STATUSTEXT, likewise
@@ -86,6 +87,13 @@ class Telemetry:
 
     def _estimator_status(self, now_us: int, m: Any) -> None:
         self.estimator_flags = m.flags
+        ratios = {
+            "velocity": m.vel_ratio,
+            "horizontal position": m.pos_horiz_ratio,
+            "height": m.pos_vert_ratio,
+            "magnetometer": m.mag_ratio,
+        }
+        self.rejected = [(name, ratio) for name, ratio in ratios.items() if ratio > 1.0]
 
     def _command_ack(self, now_us: int, m: Any) -> None:
         if len(self.acks) < 64:

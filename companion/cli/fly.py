@@ -4,7 +4,7 @@ import re
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
@@ -21,9 +21,11 @@ from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
+from companion.errors import CompanionError
 from companion.mission import Mission, parse_mission, read_mission_file
 from companion.seam import OperatorCommand
 from companion.verdict import FlightMeter, judge
+from logs.errors import RecordingError
 from logs.recorder import Recorder
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
@@ -64,19 +66,18 @@ def fly_demo(record: Path, outs: list[str], seed: int, as_json: bool) -> int:
     """The embedded default: the bundled vehicle as its own process, on a port the system chooses."""
     from companion.cli.vehicle import start_vehicle, stop_vehicle
 
-    source = resources.files("missions") / "l_shape.yaml"
-    data = source.read_bytes()
+    data = (resources.files("missions") / "l_shape.yaml").read_bytes()
     mission = parse_mission(data, "missions/l_shape.yaml")
-    record.mkdir(parents=True, exist_ok=True)
     file = recording_file(record, mission)
-    with UdpLink(VEHICLE_LINK, Endpoint.parse("udpin:127.0.0.1:0")) as link:
-        host, port = link.local_address
-        vehicle = start_vehicle(mission, f"udpout:{host}:{port}", seed, _vehicle_log(file))
-        try:
-            config = CompanionConfig(seed=seed, ground_links=ground_links(outs))
-            return _fly(mission, data, link, outs, file, config, as_json, watch=vehicle)
-        finally:
-            stop_vehicle(vehicle)
+    with UdpLink(VEHICLE_LINK, Endpoint.parse("udpin:127.0.0.1:0")) as free:
+        host, port = free.local_address
+    vehicle = start_vehicle(mission, f"udpout:{host}:{port}", seed, _vehicle_log(file))
+    try:
+        endpoints = {VEHICLE_LINK: Endpoint("udpin", host, port)} | ground_endpoints(outs)
+        config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
+        return _fly(mission, data, endpoints, file, config, as_json, watch=vehicle)
+    finally:
+        stop_vehicle(vehicle)
 
 
 def fly_mission(
@@ -92,26 +93,28 @@ def fly_mission(
     """Fly `path` on whatever answers at `master`; returns the exit code."""
     data = read_mission_file(path)
     mission = parse_mission(data, str(path))
-    endpoint = Endpoint.parse(master)
+    endpoints = {VEHICLE_LINK: Endpoint.parse(master)} | ground_endpoints(outs)
     config = CompanionConfig(
         seed=seed,
         system_id=system_id,
-        ground_links=ground_links(outs),
-        speaks_first=endpoint.kind == "udpout",
+        ground_links=tuple(endpoints)[1:],
+        speaks_first=endpoints[VEHICLE_LINK].kind == "udpout",
         wait_vehicle_s=wait_s,
     )
-    with UdpLink(VEHICLE_LINK, endpoint) as link:
-        record.mkdir(parents=True, exist_ok=True)
-        return _fly(mission, data, link, outs, recording_file(record, mission), config, as_json)
+    return _fly(mission, data, endpoints, recording_file(record, mission), config, as_json)
 
 
-def ground_links(outs: list[str]) -> tuple[str, ...]:
-    """Names of the ground stations' links."""
-    return tuple(f"out{k}" for k in range(len(outs)))
+def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:
+    """The ground stations' links by name."""
+    return {f"out{k}": Endpoint.parse(url) for k, url in enumerate(outs)}
 
 
 def recording_file(directory: Path, mission: Mission) -> Path:
-    """A file name that says what and when, and is not taken."""
+    """A file name in `directory` (made if need be) that says what and when, and is not taken."""
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CompanionError(f"{directory}: cannot make the directory: {error.strerror or error}") from error
     slug = re.sub(r"[^a-z0-9]+", "-", mission.name.lower()).strip("-") or "mission"
     return directory / f"{slug}-{datetime.now(UTC):%Y%m%dT%H%M%S_%fZ}.mcap"
 
@@ -119,67 +122,81 @@ def recording_file(directory: Path, mission: Mission) -> Path:
 def _fly(
     mission: Mission,
     data: bytes,
-    master: UdpLink,
-    outs: list[str],
+    endpoints: Mapping[str, Endpoint],
     file: Path,
     config: CompanionConfig,
     as_json: bool,
     watch: "subprocess.Popen[bytes] | None" = None,
 ) -> int:
-    """Open what is needed, fly, close everything properly, judge."""
+    """Prepare, fly, close everything properly, judge; returns the exit code."""
     out = show.console()
-    companion = Companion(mission, config)
+    companion, operator = Companion(mission, config), Operator()
     meter = FlightMeter(companion)
-    operator = Operator()
     with ExitStack() as stack:
-        links = {VEHICLE_LINK: master}
-        for name, url in zip(config.ground_links, outs, strict=True):
-            links[name] = stack.enter_context(UdpLink(name, Endpoint.parse(url)))
         stack.enter_context(operator.listening())
+        with _open(endpoints):
+            pass  # a busy port is told before the kernels are compiled
         planning = WorkerPlanning(mission.planner_world())
         stack.callback(planning.close)
-        with show.working(out, "compiling kernels (only the first time)"):
-            mission.planner_world().distance(np.zeros((1, 3)))
-            while not planning.warmed() and not operator.asked:
-                time.sleep(0.05)
-        endpoints = {name: str(link.endpoint) for name, link in links.items()}
-        recorder = stack.enter_context(
-            Recorder(file, threaded=True, **header(companion, data, endpoints=endpoints, clock={"epoch": "unix"}))
-        )
+        if not _warm(mission, planning, operator, out):
+            raise CompanionError("stopped before the flight began")
+        links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
+        urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
+        start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
+        recorder = stack.enter_context(Recorder(file, threaded=True, **start))
         progress = stack.enter_context(show.ProgressLine(companion, meter, out))
         taps: list[Tap] = [meter, RecordingTap(companion, recorder), progress]
-        pace = fly_realtime(
-            companion, links, planning, taps, operator=operator, stop=lambda: operator.stop() or _ended(watch)
-        )
-        recorder.metadata("sockets", {k: str(v) for name, link in links.items() for k, v in _socket(name, link)})
-    if not companion.over:
-        companion.failure = companion.failure or _why_stopped(watch, file)
-    verdict = judge(companion, meter)
-    counters = recorder.counters
-    drops = {
-        "kernel_drops": sum(link.counters.drops for link in links.values()),
+        stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
+        pace = fly_realtime(companion, links, planning, taps, operator=operator, stop=stop)
+        if not companion.over:
+            companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
+        recorder.metadata("sockets", {key: str(value) for key, value in _sockets(links)})
+        try:
+            recorder.close()
+        except RecordingError as error:  # the flight went on without it; the verdict must not
+            companion.failure = companion.failure or str(error)
+        kernel_drops = sum(link.counters.drops for link in links.values())
+    verdict, counters = judge(companion, meter), recorder.counters
+    losses = {
+        "kernel_drops": kernel_drops,
         "recorder_drops": counters.dropped_raw + counters.dropped_decoded,
         "sequence_gaps": sum(s.lost for s in companion.framer.senders.values()),
         "late_ticks": pace.late,
+        "missed_ticks": pace.missed,
     }
-    result = {
-        **show.verdict_json(verdict),
-        "recording": str(file),
-        "messages_recorded": total(counters),
-        **drops,
-    }
+    numbers = {"recording": str(file), "messages_recorded": total(counters), **losses}
     if as_json:
-        show.print_json(result)
+        show.print_json({**show.verdict_json(verdict), **numbers})
     else:
-        shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in drops.items())
+        shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in losses.items())
         details = {"messages": str(total(counters)), "losses": shown, "recording": str(file)}
         show.print_verdict(verdict, mission.expect, details, Console())
     return 0 if verdict.ok else 1
 
 
-def _socket(name: str, link: UdpLink) -> list[tuple[str, int]]:
-    """A link's own counters, for the recording."""
-    return [(f"{name}.{key}", value) for key, value in asdict(link.counters).items()]
+@contextmanager
+def _open(endpoints: Mapping[str, Endpoint]) -> Iterator[dict[str, UdpLink]]:
+    """All links, closed again at the end."""
+    with ExitStack() as stack:
+        yield {name: stack.enter_context(UdpLink(name, endpoint)) for name, endpoint in endpoints.items()}
+
+
+def _warm(mission: Mission, planning: WorkerPlanning, operator: Operator, out: Console) -> bool:
+    """Wait for the worker's kernels and load what this process needs of them; False when the operator gave up."""
+    with show.working(out, "preparing kernels (compiled the first time)"):
+        while not planning.warmed():
+            if operator.asked:
+                return False
+            time.sleep(0.05)
+        mission.planner_world().distance(np.zeros((1, 3)))
+    return not operator.asked
+
+
+def _sockets(links: Mapping[str, UdpLink]) -> Iterator[tuple[str, int]]:
+    """The links' own counters, for the recording."""
+    for name, link in links.items():
+        for key, value in asdict(link.counters).items():
+            yield f"{name}.{key}", value
 
 
 def _ended(process: "subprocess.Popen[bytes] | None") -> bool:
@@ -189,7 +206,7 @@ def _ended(process: "subprocess.Popen[bytes] | None") -> bool:
 def _why_stopped(process: "subprocess.Popen[bytes] | None", file: Path) -> str:
     if process is not None and process.poll() is not None:
         return f"the vehicle process ended with exit code {process.returncode}: see {_vehicle_log(file)}"
-    return "stopped by the operator"
+    return "stopped by the operator without landing"
 
 
 def _vehicle_log(file: Path) -> Path:

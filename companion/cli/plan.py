@@ -20,7 +20,7 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
     mission = load_mission(path)
     world = mission.planner_world()
     requests = Itinerary(mission, seed).wanted()
-    with show.working(out, "planning (kernels are compiled the first time)"):
+    with show.working(out, "preparing kernels (compiled the first time)"):
         warm_up()
         answers = [answer(world, wanted) for wanted in requests]
     ok = all(a.certified for a in answers)
@@ -43,7 +43,7 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
             out.print(f"plot: {file}")
     for leg in answers:
         if not leg.certified:
-            out.print(f"[bold red]✗[/] leg {leg.request_id}: {leg.error}: {leg.text}", soft_wrap=True)
+            out.print(f"[bold red]✗[/] step {leg.request_id}: {show.plain(leg.text)}", soft_wrap=True)
     return 0 if ok else 1
 
 
@@ -52,13 +52,15 @@ def _print(name: str, answers: list[PlanReady]) -> None:
     for column in ("step", "length", "duration", "clear beyond the radius", "certified", "CPU", "method"):
         table.add_column(column, justify="right")
     for leg in answers:
-        duration = "-" if leg.trajectory is None else f"{leg.trajectory.duration:.2f} s"
+        if leg.trajectory is None:
+            table.add_row(str(leg.request_id), "-", "-", "-", "no", "-", leg.method)
+            continue
         table.add_row(
             str(leg.request_id),
             f"{leg.length:.2f} m",
-            duration,
+            f"{leg.trajectory.duration:.2f} s",
             f"{leg.clearance:.3f} m",
-            "yes" if leg.certified else f"no: {leg.error}",
+            "yes" if leg.certified else "no",
             f"{leg.cpu_ms:.1f} ms",
             leg.method,
         )

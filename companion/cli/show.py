@@ -14,7 +14,7 @@ from rich.table import Table
 from companion.core import Companion
 from companion.drivers.tick import Tick
 from companion.mission import Expect
-from companion.phases import Phase
+from companion.phases import STREAMING, Phase
 from companion.seam import Level, Note
 from companion.verdict import FlightMeter, Verdict
 
@@ -70,7 +70,7 @@ class ProgressLine:
             here = companion.telemetry.position_n - companion.origin_n
             parts.append(f"step {companion.itinerary.index} {companion.itinerary.step.kind}")
             parts.append(f"{companion.itinerary.remaining(here):5.1f} m to go")
-        if not math.isnan(meter.tracking_error_now):
+        if companion.phase in STREAMING - {Phase.LANDING} and not math.isnan(meter.tracking_error_now):
             parts.append(f"error {meter.tracking_error_now:.2f} m")
             parts.append(f"setpoints {meter.setpoint_rate_now:.1f} Hz")
         return "  ".join(parts)

@@ -30,7 +30,7 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
     mission = parse_mission(data, str(path))
     companion = Companion(mission, CompanionConfig(seed=seed))
     planning = InlinePlanning(mission.planner_world())
-    with show.working(out, "compiling kernels (only the first time)"):
+    with show.working(out, "preparing kernels (compiled the first time)"):
         build_vehicle(mission, seed).step(Vehicle.TICK_US, [])  # one step of a twin, thrown away
         warm_up()
     vehicle = build_vehicle(mission, seed)

@@ -8,6 +8,7 @@ from multiprocessing.pool import AsyncResult
 from typing import Protocol
 
 from companion.seam import PlanReady, PlanWanted
+from companion.wording import in_mission_words
 from planner import Plan, PlannerError, World, plan, warm_up
 
 
@@ -41,7 +42,9 @@ def answer(world: World, wanted: PlanWanted) -> PlanReady:
     try:
         made = make_plan(world, wanted)
     except PlannerError as error:
-        return PlanReady(wanted.request_id, None, error=type(error).__name__, text=str(error), method=wanted.method)
+        return PlanReady(
+            wanted.request_id, None, error=type(error).__name__, text=in_mission_words(error), method=wanted.method
+        )
     return PlanReady(
         request_id=wanted.request_id,
         trajectory=made.trajectory,

@@ -23,6 +23,7 @@ class Pace:
 
     ticks: int
     late: int  # ticks that began more than half a period after their deadline
+    missed: int  # periods without a tick, since the one before took too long
     worst_late_ms: float
 
 
@@ -40,7 +41,7 @@ def fly_realtime(
     epoch_ns = time.time_ns() - time.monotonic_ns()
     names = {id(link): name for name, link in links.items()}
     sockets = list(links.values())
-    index, late, worst_ns = 0, 0, 0
+    index, late, missed, worst_ns = 0, 0, 0, 0
     deadline_ns = time.monotonic_ns() + period_ns
     while not companion.over and not stop():
         inputs: list[tuple[int, Input]] = []
@@ -71,5 +72,6 @@ def fly_realtime(
         deadline_ns += period_ns
         behind = (time.monotonic_ns() - deadline_ns) // period_ns
         if behind > 0:  # whole periods were missed: they stay missed
+            missed += behind
             deadline_ns += behind * period_ns
-    return Pace(index, late, worst_ns / 1e6)
+    return Pace(index, late, missed, worst_ns / 1e6)

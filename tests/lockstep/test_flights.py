@@ -95,7 +95,7 @@ def test_a_mission_without_a_path_is_refused_on_the_ground_with_the_planners_rea
     walled = HOP.replace("    - cyl", "    - box: {north: [3, 3.5], east: [-1, 11], altitude: [-1, 5]}\n    - cyl")
     flight = fly(walled)
     assert flight.companion.phase is Phase.FAILED
-    assert "NoPathFound" in flight.verdict.failure
+    assert "no plan: step 1: no path found" in flight.verdict.failure
     assert not any("armed" in note for note in flight.notes)
     mav = mavlink.MAVLink(None)
     asked = [mav.decode(bytearray(p.raw)).command for _, p in sent(flight, mavlink.MAVLINK_MSG_ID_COMMAND_LONG)]

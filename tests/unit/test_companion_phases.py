@@ -26,3 +26,4 @@ def test_a_vehicle_that_falls_silent_or_an_operator_who_asks_for_land_is_heard_i
 def test_in_the_air_no_refusal_ends_the_flight_without_a_landing():
     assert after(Phase.FLYING, Event.REFUSED) is Phase.FLYING
     assert after(Phase.LANDING, Event.REFUSED) is Phase.LANDING
+    assert after(Phase.HANDED_OVER, Event.REFUSED) is Phase.HANDED_OVER
