@@ -11,9 +11,9 @@ not know.
     ARMING --armed--> FLYING --steps done--> LANDING --disarmed--> DONE
 
 From PLANNING on setpoints are streamed; before FLYING nothing has left the ground, so a refusal ends in FAILED. In the
-air the only way out is down: the operator who asks to land gets a landing. Two things end a flight without landing it: a
-pilot (or a failsafe) who takes the mode is never fought (HANDED_OVER: we look on, forward and record until the vehicle
-disarms), and a vehicle that falls silent cannot be helped (FAILED).
+air the only way out is down: the operator who asks to land gets a landing. Two things end a flight without landing it:
+a pilot (or a failsafe) who takes the mode is never fought (HANDED_OVER: we look on, forward and record until the
+vehicle disarms), and a vehicle that falls silent cannot be helped (FAILED).
 """
 
 from enum import Enum

@@ -9,7 +9,7 @@ from logs.reader import Recording
 
 @dataclass(frozen=True, slots=True)
 class TopicInfo:
-    """A topic, its schema (or encoding), how many messages, and how many a second over the whole recording [1/s]."""
+    """A topic, its schema (or encoding), how many messages, and how many a second from its first to its last [1/s]."""
 
     topic: str
     schema: str
@@ -64,12 +64,15 @@ def info(path: Path) -> RecordingInfo:
     """
     recording = Recording.open(path)
     counts: dict[str, int] = {}
+    spans: dict[str, tuple[int, int]] = {}
     schemas: dict[str, str] = {}
     links: dict[str, list[int]] = {}
     start_ns, end_ns, total = 0, 0, 0
     for message in recording.messages():
         channel = message.channel
         counts[channel.topic] = counts.get(channel.topic, 0) + 1
+        first_ns, last_ns = spans.get(channel.topic, (message.log_time_ns, message.log_time_ns))
+        spans[channel.topic] = min(first_ns, message.log_time_ns), max(last_ns, message.log_time_ns)
         schemas[channel.topic] = channel.schema or channel.encoding
         if channel.direction is not None:
             sums = links.setdefault(channel.link, [0, 0, 0, 0])
@@ -91,10 +94,15 @@ def info(path: Path) -> RecordingInfo:
         duration_s=duration_s,
         messages=total,
         topics=tuple(
-            TopicInfo(topic, schemas[topic], count, count / duration_s if duration_s else 0.0)
+            TopicInfo(topic, schemas[topic], count, _rate_hz(count, *spans[topic]))
             for topic, count in sorted(counts.items())
         ),
         links=tuple(LinkInfo(name, *sums) for name, sums in links.items()),
         metadata=recording.metadata,
         attachments={name: len(attachment.data) for name, attachment in recording.attachments.items()},
     )
+
+
+def _rate_hz(count: int, first_ns: int, last_ns: int) -> float:
+    """Messages a second between the first and the last of them [1/s]."""
+    return (count - 1) * 1e9 / (last_ns - first_ns) if last_ns > first_ns else 0.0

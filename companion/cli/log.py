@@ -49,7 +49,8 @@ def _json(found: RecordingInfo) -> dict[str, object]:
 
 def _print(found: RecordingInfo, out: Console) -> None:
     state = "complete" if found.complete else f"[yellow]not complete: {found.problem}[/yellow]"
-    out.print(f"[bold]{found.path}[/bold]  {found.size_bytes / 1e6:.2f} MB, {found.duration_s:.2f} s, {state}")
+    size = f"{found.size_bytes / 1e6:.2f} MB, {found.duration_s:.2f} s, {state}"
+    out.print(f"[bold]{found.path}[/bold]  {size}", soft_wrap=True)
     out.print(f"{found.messages} messages, written by {found.library}")
     for name, size in found.attachments.items():
         out.print(f"attachment {name} ({size} bytes)")
@@ -61,8 +62,9 @@ def _print(found: RecordingInfo, out: Console) -> None:
         links.add_row(link.name, *map(str, numbers))
     out.print(links)
     topics = Table(title="topics", title_justify="left")
-    for column in ("topic", "schema", "messages", "Hz"):
-        topics.add_column(column, justify="left" if column in ("topic", "schema") else "right")
+    topics.add_column("topic", no_wrap=True, overflow="ignore")
+    topics.add_column("messages", justify="right")
+    topics.add_column("Hz", justify="right")
     for topic in found.topics:
-        topics.add_row(topic.topic, topic.schema, str(topic.count), f"{topic.rate_hz:.1f}")
+        topics.add_row(topic.topic, str(topic.count), f"{topic.rate_hz:.1f}")
     out.print(topics)
