@@ -49,8 +49,8 @@ def _json(found: RecordingInfo) -> dict[str, object]:
 
 def _print(found: RecordingInfo, out: Console) -> None:
     state = "complete" if found.complete else f"[yellow]not complete: {found.problem}[/yellow]"
-    size = f"{found.size_bytes / 1e6:.2f} MB, {found.duration_s:.2f} s, {state}"
-    out.print(f"[bold]{found.path}[/bold]  {size}", soft_wrap=True)
+    about = f"{found.size_bytes / 1e6:.2f} MB, {found.duration_s:.2f} s, {state}"
+    out.print(f"[bold]{found.path}[/bold]  {about}", soft_wrap=True)
     out.print(f"{found.messages} messages, written by {found.library}")
     for name, size in found.attachments.items():
         out.print(f"attachment {name} ({size} bytes)")
