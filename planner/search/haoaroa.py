@@ -2,18 +2,20 @@
 
 Legend (n_pop candidates of dimension n_dim, iteration t of T):
     x, v          positions and velocities        x_best, g_best   best of each candidate, best of all
-    s             each candidate's own step length along the gradient (the paper's lambda_p and beta_p)
+    s             each candidate's own step length along the gradient (lambda_p of Eq. 44 and beta_p of Eq. 48)
     g             gradient divided by its largest component
     den, vol, acc density, volume, acceleration of the Archimedes Optimization Algorithm (Hashim 2021), without gradient
     w = 0.8 -> 0.4;  TF = exp((t - T)/T);  d = exp((T - t)/T) - t/T;  c1 = 2.0, c2 = 1.5;  r in U(0, 1), fresh each time
 
-The paper's Eq. 43-49 are not an algorithm yet: Eq. 45 makes "buoyancy" plain gradient descent (44 and 46 then say the
-same), Eq. 47 is the first half of Eq. 48, both gradients of Eq. 49 are gradients of the one J, and lambda, gamma,
-beta, alpha_1, alpha_2 are never given. This is the reading computed here:
+The paper's Eq. 43-49 (a tag stands below its formula; the text names most of them one too low) are not an algorithm
+yet: Eq. 45, F = -grad J, makes the buoyancy step P + lambda F of Eq. 44 plain gradient descent; Eq. 46 only says again
+that J is length + smoothness + obstacles; Eq. 47 is the first half of Eq. 48; both gradients of Eq. 49 are gradients of
+the one J; and lambda, gamma, beta, alpha_1, alpha_2 are never given. No equation of the paper explores: the way toward
+a random candidate is taken from Hashim 2021, as are TF and d. This is the reading computed here:
 
-    TF <= 1/2:  v = w v + 0.3 r d (x_rand - x)                               - s g     exploration, Eq. 44-45
-    else:       v = w v + (c1 r1 (x_best - x) + c2 r2 (leader - x)) / 2      - s g     exploitation, Eq. 47-48
-    x = x + v, clipped to the bounds, where a clipped component loses its velocity            Eq. 49: both in one update
+    TF <= 1/2:  v = w v + 0.3 r d (x_rand - x)                           - s g     Hashim 2021; -s g is Eq. 44 with 45
+    else:       v = w v + (c1 r1 (x_best - x) + c2 r2 (leader - x)) / 2  - s g     Eq. 48, of which 47 is the first half
+    x = x + v, clipped to the bounds, where a clipped component loses its velocity        Eq. 49: both in one update
     s grows by 1.2 when the cost fell and shrinks to 0.7 of itself when it did not
 
 `leader` is where the four rider groups (Binu & Kariyappa 2019) differ; the original multiplies the leader's
@@ -73,7 +75,7 @@ def draws(n_dim: int) -> int:
 def remember(p: Population) -> None:
     """Keep each candidate's best and adapt its step, once `costs` and `gradients` are filled in."""
     for i in range(p.costs.shape[0]):
-        if p.costs[i] < p.best_costs[i]:  # greedy selection, after Eq. 46
+        if p.costs[i] < p.best_costs[i]:  # J of Eq. 46; the better one is kept (the text below Eq. 47)
             p.best_costs[i] = p.costs[i]
             p.best_positions[i, :] = p.positions[i]
         p.steps[i] *= 1.2 if p.costs[i] < p.previous[i] else 0.7
@@ -121,7 +123,7 @@ def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: 
         for k in range(n_dim):
             r1, r2 = u[_EXTRA + 2 * k], u[_EXTRA + 2 * k + 1]
             if explore:
-                pull = 0.3 * r1 * d * (random[k] - x[k])  # Eq. 44, 46
+                pull = 0.3 * r1 * d * (random[k] - x[k])  # AOA's exploration (Hashim 2021)
             else:
                 if group == 0:  # bypass
                     goal = u[4] * mate_a[k] + (1.0 - u[4]) * mate_b[k]
@@ -131,9 +133,10 @@ def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: 
                     goal = leader[k] + u[4] * (leader[k] - x[k])
                 else:  # attacker
                     goal = leader[k]
-                pull = 0.5 * (C1 * r1 * (mine[k] - x[k]) + C2 * r2 * (goal - x[k]))  # Eq. 47, 48
+                pull = 0.5 * (C1 * r1 * (mine[k] - x[k]) + C2 * r2 * (goal - x[k]))  # gamma term of Eq. 47, 48
             if with_gradient:
-                buoyancy = -p.steps[i] * p.gradients[i, k] / largest if largest > 0.0 else 0.0  # Eq. 45
+                # lambda F with F = -grad J (Eq. 44, 45); while exploiting the same is -beta grad J (Eq. 48)
+                buoyancy = -p.steps[i] * p.gradients[i, k] / largest if largest > 0.0 else 0.0
             elif explore:
                 buoyancy = _AOA_C1 * r2 * p.traits[i, 2] * d * (random[k] - x[k])
             else:
