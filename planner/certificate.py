@@ -1,6 +1,6 @@
 """Proof that a whole curve keeps its distance, not only sampled points of it.
 
-The curve is cut into Bezier pieces; a piece lies in the hull of its four control points b_k (paper, Fig. 1). With c its
+The curve is cut into Bezier pieces; a piece lies in the convex hull of its four control points b_k. With c its
 middle point and d_o the signed distance to solid o, two lower bounds hold on all of the piece:
 
     d_o >= d_o(c) - max_k |b_k - c|              a signed distance is 1-Lipschitz
@@ -8,8 +8,9 @@ middle point and d_o the signed distance to solid o, two lower bounds hold on al
 
 The second is exact to second order in the piece's size, so few cuts are needed. The walls of the map bound a hull by
 its corners. A piece that is not decided is halved (de Casteljau); a curve that needs more than MOST_PIECES is not
-proved. Rounding moves no bound by more than some hundred units in the last place; MARGIN times the map's size is far
-above.
+proved. Rounding moves no bound by more than some hundred units in the last place; MARGIN times the largest coordinate
+is far above. So a curve is proved for a radius when its bounds reach `needed`, a few margins more; an end of it has to
+stand off `end_needed`, a margin more again.
 """
 
 import math
@@ -108,6 +109,24 @@ def prove(
     return bound, wall_bound, looked
 
 
+def margin(world: World) -> float:
+    """What rounding may cost in a world [m]: MARGIN times its largest coordinate, and never less than MARGIN."""
+    largest = max(1.0, float(np.abs(world.walls).max()))
+    if len(world.solids):
+        largest = max(largest, float(np.abs(world.solids[:, 1:]).max()))
+    return MARGIN * largest
+
+
+def needed(world: World, radius: float) -> float:
+    """The computed distance that proves the radius [m]."""
+    return radius + 2.0 * margin(world)
+
+
+def end_needed(world: World, radius: float) -> float:
+    """The distance at which an end of a curve can be told to be proved for the radius [m]: a margin above `needed`."""
+    return radius + 3.0 * margin(world)
+
+
 def certify(
     control_points: FloatArray, knots: FloatArray, world: World, radius: float, full: bool = True
 ) -> Certificate:
@@ -120,11 +139,8 @@ def certify(
     radius : float            [m].
     full : bool               True finds the least distance to TOLERANCE; False stops at the radius.
     """
-    margin = MARGIN * max(1.0, float(np.abs(world.walls).max()))
-    if len(world.solids):
-        margin = max(margin, MARGIN * float(np.abs(world.solids[:, 1:]).max()))
-    need = radius + 2 * margin
     pieces = bezier_pieces(control_points, knots)
-    low, wall, looked = prove(pieces, world.solids, world.walls, need, TOLERANCE if full else np.inf)
-    low, wall = low - margin, wall - margin
+    tolerance = TOLERANCE if full else np.inf
+    low, wall, looked = prove(pieces, world.solids, world.walls, needed(world, radius), tolerance)
+    low, wall = low - margin(world), wall - margin(world)
     return Certificate(bool(low >= radius and wall >= radius), low, wall, looked)

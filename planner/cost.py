@@ -5,6 +5,7 @@ With u in [0, 1], D the length of the way (known roughly beforehand) and P the c
     J = J_stretch + J_smooth + J_obstacle                                                       [m]        Eq. 36
     J_stretch  = (1/D) int |C'|^2 du                = (1/D) tr(P^T S P),  S_ij = int N_i' N_j'             Eq. 37
     J_smooth   = (1/D) (tau/T)^2 int |C''|^2 du     = (1/D) (tau/T)^2 tr(P^T Q P),  Q_ij = int N_i'' N_j'' Eq. 38
+    tau/T      = m / (D + m),  m = min(v^2/a, D)                                         v, a: the limits
     J_obstacle = k D/c^2 int sum_o h(c - d_o(C)) du                                                        Eq. 39
     h(e) = 0 for e <= 0;  e^3 for e <= c;  3 c e^2 - 3 c^2 e + c^3 beyond (twice continuously differentiable)
 
@@ -12,10 +13,12 @@ Where this leaves the printed equations:
 - Eq. 37 prints the integral of C', which is C(1) - C(0). The length is the integral of |C'|; its square is at most
   int |C'|^2, with equality at constant speed. So the stretch has the shortest curves as minimisers, run at an even
   speed, which is what uniform knots want, and it is a quadratic form.
-- Eq. 38 sums squares of single terms; the square of the sum is the quadratic form above. tau = speed/acceleration
-  limit is the time to reach full speed and T the time to cover D at it: then J_stretch + J_smooth is int |v|^2 +
-  tau^2 |a|^2 dt in other units, whose minimiser reaches its speed with the time constant tau. No weight is left to
-  tune. A fast, weak vehicle would round off more than a maze lets pass: `softest` then bounds the way tau speed.
+- Eq. 38 sums squares of single terms; the square of the sum is the quadratic form above. tau is the time to reach the
+  top speed and T that of the fastest run over D, from rest to rest, that the limits allow: tau = v/a and T = D/v + tau
+  when there is room to reach v, that is v^2/a <= D; else the top speed is sqrt(a D), tau = sqrt(D/a) and T = 2 tau.
+  With m = tau times that speed, both are the line above. J_stretch + J_smooth is then int |v|^2 + tau^2 |a|^2 dt in
+  other units, whose minimiser reaches its speed with the time constant tau. No weight is left to tune. A fast, weak vehicle
+  would round off more than a maze lets pass: `softest` then bounds m, the way in which the speed may change.
 - Eq. 39 grows with the distance from an obstacle, so minimising it attracts. A hinge on the signed distance d repels,
   inside c = radius + buffer only; walls of the map are obstacles with d = distance to the wall.
 
@@ -64,8 +67,10 @@ class Problem(NamedTuple):
     """Everything the kernel reads, and its scratch (so one problem serves one thread)."""
 
     energy: FloatArray  # (f, f) quadratic form of the free control points, banded [1/m]
-    linear: FloatArray  # (f, 3) what the fixed ends add to half its gradient
+    linear: FloatArray  # (f, 3) what the fixed ends add to half its gradient, reckoned from the origin
     constant: float  # [m]
+    origin: FloatArray  # (3,) where energies are reckoned from, so that far maps (UTM) cancel no digits [m]
+    relative: FloatArray  # (3 f,) scratch
     basis: FloatArray  # (spans, 4, SAMPLES)
     points: FloatArray  # (n, 3) scratch; its ends hold the fixed control points
     slopes: FloatArray  # (n, 3) scratch
@@ -142,24 +147,27 @@ def build_grid(world: World, reach: float) -> Grid:
 def hinge(e: float, c: float) -> tuple[float, float]:
     """(h, dh/de) of the corrected Eq. 39; e > 0."""
     if e <= c:
-        return e * e * e, 3.0 * e * e
+        return e * e * e, 3.0 * e * e  # Eq. 39, its sign and shape mended
     return 3.0 * c * e * e - 3.0 * c * c * e + c * c * c, 6.0 * c * e - 3.0 * c * c
 
 
 @kernel
 def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Stretch and smoothness of the free control points x (3 f,), gradient written (3 f,)."""
-    f = p.energy.shape[0]
+    f, y = p.energy.shape[0], p.relative
     cost = p.constant
+    for i in range(f):
+        for a in range(3):
+            y[3 * i + a] = x[3 * i + a] - p.origin[a]
     for i in range(f):
         a0, a1, a2 = p.linear[i, 0], p.linear[i, 1], p.linear[i, 2]
         b0, b1, b2 = a0, a1, a2
         for j in range(max(i - DEGREE, 0), min(i + DEGREE + 1, f)):
             m = p.energy[i, j]
-            a0 += m * x[3 * j]
-            a1 += m * x[3 * j + 1]
-            a2 += m * x[3 * j + 2]
-        cost += x[3 * i] * (a0 + b0) + x[3 * i + 1] * (a1 + b1) + x[3 * i + 2] * (a2 + b2)
+            a0 += m * y[3 * j]
+            a1 += m * y[3 * j + 1]
+            a2 += m * y[3 * j + 2]
+        cost += y[3 * i] * (a0 + b0) + y[3 * i + 1] * (a1 + b1) + y[3 * i + 2] * (a2 + b2)
         gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2] = 2.0 * a0, 2.0 * a1, 2.0 * a2
     return cost
 
@@ -196,7 +204,7 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
             for item in range(first, end):
                 d, gx, gy, gz = solid_distance(p.solids[grid.items[item]], px, py, pz)
                 if d < c:
-                    h, dh = hinge(c - d, c)
+                    h, dh = hinge(c - d, c)  # Eq. 39, one solid
                     total += h
                     fx -= dh * gx
                     fy -= dh * gy
@@ -248,7 +256,7 @@ class SplineCost:
     limits : Limits       speed and acceleration fix the weight of smoothness.
     reach : float         c, where the hinge begins [m]; positive.
     length : float        D, about how long the way will be [m]; the straight distance when not given.
-    softest : float       most way over which smoothness lets the speed change [m].
+    softest : float       bound on m, the way in which smoothness lets the speed change [m].
     grid : Grid           of `build_grid(world, c)` with at least this reach; built when not given.
     """
 
@@ -275,13 +283,13 @@ class SplineCost:
         shape = _Shape.of(n)
         straight = float(np.linalg.norm(self.ends[1] - self.ends[0]))
         self.distance = max(straight if length is None else length, SHORTEST)
-        soft = min(limits.speed**2 / limits.acceleration, self.distance, softest)  # tau speed
-        self._smooth: FloatArray = (soft / (self.distance + soft)) ** 2 * shape.smoothness / self.distance
-        self._stretch: FloatArray = shape.stretch / self.distance
-        whole: FloatArray = self._stretch + self._smooth
+        m = min(limits.speed**2 / limits.acceleration, self.distance, softest)
+        self._stretch: FloatArray = shape.stretch / self.distance  # Eq. 37
+        self._smooth: FloatArray = (m / (self.distance + m)) ** 2 * shape.smoothness / self.distance  # Eq. 38
+        whole: FloatArray = self._stretch + self._smooth  # Eq. 36 without its obstacles
         points: FloatArray = np.repeat(self.ends, (FIXED, n - FIXED), axis=0)
         free = slice(FIXED, n - FIXED)
-        ends: FloatArray = points.copy()
+        ends: FloatArray = points - self.ends[0]
         ends[free] = 0.0
         linear: FloatArray = whole[free] @ ends
         spans = n - DEGREE
@@ -289,6 +297,8 @@ class SplineCost:
             energy=np.ascontiguousarray(whole[free, free]),
             linear=linear,
             constant=float(np.einsum("ia,ij,ja->", ends, whole, ends)),
+            origin=self.ends[0],
+            relative=np.zeros(self.size),
             basis=shape.basis,
             points=points,
             slopes=np.zeros((n, 3)),
@@ -297,7 +307,7 @@ class SplineCost:
             walls=world.walls,
             grid=build_grid(world, reach) if grid is None else grid,
             reach=reach,
-            scale=weight * self.distance / (reach**2 * spans * SAMPLES),
+            scale=weight * self.distance / (reach**2 * spans * SAMPLES),  # Eq. 39's k and its du
         )
         self.inverse_energy: FloatArray = np.asarray(np.linalg.inv(self.problem.energy), dtype=np.float64)
 
@@ -318,12 +328,12 @@ class SplineCost:
 
     def stretch(self, x: FloatArray) -> float:
         """J_stretch [m], from the quadratic form on all control points."""
-        points = self.control_points(x)
+        points = self.control_points(x) - self.ends[0]
         return float(np.einsum("ia,ij,ja->", points, self._stretch, points))
 
     def smoothness(self, x: FloatArray) -> float:
         """J_smooth [m], from the quadratic form on all control points."""
-        points = self.control_points(x)
+        points = self.control_points(x) - self.ends[0]
         return float(np.einsum("ia,ij,ja->", points, self._smooth, points))
 
     def obstacle(self, x: FloatArray) -> float:

@@ -2,7 +2,7 @@
 
     PlannerError
       KnotError             a knot vector is not one
-      InfeasibleLimits      a limit nothing can move under (also a ValueError)
+      InfeasibleLimits      a limit that no vehicle has (also a ValueError)
       EndpointError
         StartInCollision    GoalInCollision       closer to an obstacle than the radius
         StartOutOfBounds    GoalOutOfBounds       closer to a wall of the map than the radius, or beyond it
@@ -22,6 +22,11 @@ def _point(p: Point) -> str:
     return "(" + ", ".join(f"{v:.2f}" for v in p) + ")"
 
 
+def _lack(metres: float) -> str:
+    """Something missing, never shown as nothing: millimetres as a rule, two digits when it is less than one."""
+    return f"{metres:.3f} m" if metres >= 1e-3 or metres <= 0.0 else f"{metres:.1e} m"
+
+
 class PlannerError(Exception):
     """Root of everything this package raises on purpose, misuse of a constructor (ValueError) apart."""
 
@@ -31,35 +36,48 @@ class KnotError(PlannerError):
 
 
 class InfeasibleLimits(PlannerError, ValueError):
-    """A limit under which nothing can move: not finite or not positive."""
+    """A limit that is not a number of `least` to `most`; `name` says which."""
 
-    def __init__(self, name: str, value: float) -> None:
-        super().__init__(name, value)
-        self.name, self.value = name, value
+    def __init__(self, name: str, value: float, least: float, most: float) -> None:
+        super().__init__(name, value, least, most)
+        self.name, self.value, self.least, self.most = name, value, least, most
 
     def __str__(self) -> str:
-        return f"limit {self.name}: expected a finite number above 0, found {self.value:g}"
+        return f"limit {self.name}: expected a number from {self.least:g} to {self.most:g}, found {self.value:g}"
 
 
 class EndpointError(PlannerError):
-    """The start or the goal is a place where the vehicle cannot be."""
+    """The start or the goal is a place where the vehicle cannot be.
+
+    `shortfall` [m] is what `distance` lacks of `radius + margin`; the margin is what the proof takes for rounding.
+    """
 
     which: ClassVar[str]
+    distance: float
+    radius: float
+    margin: float
+
+    @property
+    def shortfall(self) -> float:
+        return self.radius + self.margin - self.distance
+
+    def _asked(self) -> str:
+        if self.distance < self.radius:
+            return f"the radius asks for {self.radius:.3f} m, {_lack(self.shortfall)} more"
+        return f"the radius of {self.radius:.3f} m is kept, but proving so takes {_lack(self.shortfall)} more"
 
 
 class _InCollision(EndpointError):
-    def __init__(self, point: Point, obstacle: int, kind: str, distance: float, radius: float) -> None:
-        super().__init__(point, obstacle, kind, distance, radius)
+    def __init__(
+        self, point: Point, obstacle: int, kind: str, distance: float, radius: float, margin: float = 0.0
+    ) -> None:
+        super().__init__(point, obstacle, kind, distance, radius, margin)
         self.point, self.obstacle, self.kind = point, obstacle, kind
-        self.distance, self.radius = distance, radius
-        self.shortfall = radius - distance
+        self.distance, self.radius, self.margin = distance, radius, margin
 
     def __str__(self) -> str:
         where = f"{self.distance:.3f} m from" if self.distance >= 0 else f"{-self.distance:.3f} m inside"
-        return (
-            f"{self.which} {_point(self.point)} is {where} obstacle {self.obstacle} ({self.kind}); "
-            f"the radius asks for {self.radius:.3f} m, {self.shortfall:.3f} m more"
-        )
+        return f"{self.which} {_point(self.point)} is {where} obstacle {self.obstacle} ({self.kind}); {self._asked()}"
 
 
 class StartInCollision(_InCollision):
@@ -75,19 +93,17 @@ class GoalInCollision(_InCollision):
 
 
 class _OutOfBounds(EndpointError):
-    def __init__(self, point: Point, axis: int, side: str, bound: float, distance: float, radius: float) -> None:
-        super().__init__(point, axis, side, bound, distance, radius)
+    def __init__(
+        self, point: Point, axis: int, side: str, bound: float, distance: float, radius: float, margin: float = 0.0
+    ) -> None:
+        super().__init__(point, axis, side, bound, distance, radius, margin)
         self.point, self.axis, self.side, self.bound = point, axis, side, bound
-        self.distance, self.radius = distance, radius
-        self.shortfall = radius - distance
+        self.distance, self.radius, self.margin = distance, radius, margin
 
     def __str__(self) -> str:
         wall = f"the {self.side} {AXES[self.axis]} bound {self.bound:g} m"
         where = f"{self.distance:.3f} m inside" if self.distance >= 0 else f"{-self.distance:.3f} m beyond"
-        return (
-            f"{self.which} {_point(self.point)} is {where} {wall}; "
-            f"the radius asks for {self.radius:.3f} m inside, {self.shortfall:.3f} m more"
-        )
+        return f"{self.which} {_point(self.point)} is {where} {wall}; {self._asked()}"
 
 
 class StartOutOfBounds(_OutOfBounds):
@@ -116,5 +132,5 @@ class NoPathFound(PlannerError):
     def __str__(self) -> str:
         return (
             f"no path found: {self.tried} curves polished with {self.evaluations} evaluations, none keeps "
-            f"{self.radius:.3f} m everywhere; the best one lacks {self.shortfall:.3f} m"
+            f"{self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}"
         )

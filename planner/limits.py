@@ -1,12 +1,17 @@
 """Limits on the motion, and bounds on a spline's derivatives that hold everywhere on it."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from planner.bspline import DEGREE, FloatArray, derivative_control_points
 from planner.errors import InfeasibleLimits
+
+LEAST, MOST = 1e-6, 1e6
+"""What a limit may be, in its SI unit. Vehicles have 0.1 to 1000; the room around that is for odd questions.
+It ends where arithmetic starts to suffer: every product of powers of three such limits stays far from overflow and
+underflow, and a metre takes weeks at worst.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +20,7 @@ class Limits:
 
     Raises
     ------
-    InfeasibleLimits : a limit is not finite or not positive.
+    InfeasibleLimits : a limit is not a number from LEAST to MOST.
     """
 
     speed: float  # [m/s]
@@ -25,8 +30,8 @@ class Limits:
     def __post_init__(self) -> None:
         for name in ("speed", "acceleration", "jerk"):
             value = float(getattr(self, name))
-            if not (math.isfinite(value) and value > 0.0):
-                raise InfeasibleLimits(name, value)
+            if not LEAST <= value <= MOST:
+                raise InfeasibleLimits(name, value, LEAST, MOST)
             object.__setattr__(self, name, value)
 
 

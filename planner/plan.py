@@ -13,7 +13,7 @@ import numpy as np
 
 from planner import errors
 from planner.bspline import DEGREE, FloatArray, clamped_knots, derivative_control_points, evaluate
-from planner.certificate import certify
+from planner.certificate import certify, end_needed, needed
 from planner.cost import FIXED, SplineCost, build_grid
 from planner.descent import polish, search
 from planner.distance import nearest_solid
@@ -96,7 +96,8 @@ def plan(
     Raises
     ------
     ValueError : an unknown method, a radius that is not finite and at least 0, or a point that is not three numbers.
-    StartInCollision, GoalInCollision, StartOutOfBounds, GoalOutOfBounds : which obstacle or wall, and by how much.
+    StartInCollision, GoalInCollision, StartOutOfBounds, GoalOutOfBounds : which obstacle or wall, and by how much; an
+        end at the radius exactly is refused too, since rounding leaves nothing to prove it by.
     NoPathFound : nothing could be proved within the budget.
     """
     watch = Stopwatch()
@@ -126,16 +127,18 @@ def check_endpoint(
     collision: type[errors.StartInCollision] | type[errors.GoalInCollision],
     outside: type[errors.StartOutOfBounds] | type[errors.GoalOutOfBounds],
 ) -> None:
-    """Raise `outside` or `collision` unless the point keeps the radius from every wall and obstacle."""
+    """Raise `outside` or `collision` unless the point keeps what a proof needs from every wall and obstacle."""
+    need = end_needed(world, radius)
     low, high = world.bounds
     ways = [(point[i] - low[i], i, "lower", low[i]) for i in range(3)]
     ways += [(high[i] - point[i], i, "upper", high[i]) for i in range(3)]
     distance, axis, side, bound = min(ways)
-    if distance < radius:
-        raise outside(point, axis, side, bound, distance, radius)
+    if distance < need:
+        raise outside(point, axis, side, bound, distance, radius, need - radius)
     nearest, index = nearest_solid(world.solids, *point)
-    if nearest < radius:
-        raise collision(point, index, type(world.obstacles[index]).__name__.lower(), nearest, radius)
+    if nearest < need:
+        kind = type(world.obstacles[index]).__name__.lower()
+        raise collision(point, index, kind, nearest, radius, need - radius)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,10 +158,9 @@ class _Search:
         self.world, self.start, self.goal, self.limits, self.radius = world, start, goal, limits, radius
         self.generator = np.random.default_rng(seed)
         self.reach = radius + max(0.05, 0.4 * radius)
-        # The last hair keeps a control point on a wall provable in spite of the certificate's rounding margin.
-        hair = 1e-6 * max(1.0, float(np.abs(world.walls).max()))
-        self.lower = np.minimum(world.walls[0] + radius + hair, np.minimum(start, goal))
-        self.upper = np.maximum(world.walls[1] - radius - hair, np.maximum(start, goal))
+        # Half a margin outside the ends' own bounds: provable, and lower < upper even where the map is 2 radius wide.
+        room = (needed(world, radius) + end_needed(world, radius)) / 2.0
+        self.lower, self.upper = world.walls[0] + room, world.walls[1] - room
         self.evaluations = self.iterations = self.tried = self.certified = 0
         self.guided = False
         self.grid = build_grid(world, self.reach)
@@ -176,9 +178,11 @@ class _Search:
                 for softest in SOFTEST:
                     cost = self.spline_cost(length, softest)
                     found = found or self.prove_all([along_path(path, cost.n)], cost)
-        if not found:
-            raise errors.NoPathFound(self.tried, self.evaluations, self.shortfall(), self.radius)
-        return self.finish(min(found, key=lambda p: p.value), method, watch)
+        for best in sorted(found, key=lambda p: p.value):
+            finished = self.finish(best, method, watch)
+            if finished.certified:
+                return finished
+        raise errors.NoPathFound(self.tried, self.evaluations, self.shortfall(), self.radius)
 
     def spline_cost(self, length: float, softest: float = np.inf) -> SplineCost:
         n = int(np.clip(round(length / SPACING) + DEGREE, FEWEST, MOST))
@@ -226,6 +230,7 @@ class _Search:
             for factor in STIFFER:
                 x, evaluations = polish(cost, x, factor)
                 self.evaluations += evaluations
+                x = self.inside(x)
                 points = cost.control_points(x)
                 if certify(points, clamped_knots(cost.n), self.world, self.radius, full=False).certified:
                     self.certified += 1
@@ -234,6 +239,11 @@ class _Search:
             else:
                 self.refused.append(points)
         return found
+
+    def inside(self, x: FloatArray) -> FloatArray:
+        """The free control points moved into the map: their hull then keeps the radius from its walls."""
+        held: FloatArray = np.clip(x.reshape(-1, 3), self.lower, self.upper).ravel()
+        return held
 
     def shortfall(self) -> float:
         """By how much the best of the unproved curves misses the radius on samples [m], for the error."""
@@ -248,6 +258,8 @@ class _Search:
         knots = uniform_scaling(best.points, self.limits)
         trajectory = Trajectory(best.points, knots)
         proof = certify(best.points, knots, self.world, self.radius)
+        if not proof.certified:  # its least distance took too many pieces; the radius took few
+            proof = certify(best.points, knots, self.world, self.radius, full=False)
         terms = best.cost.terms(best.x)
         report = Report(
             evaluations=self.evaluations,

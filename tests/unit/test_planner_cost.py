@@ -52,6 +52,25 @@ def test_the_obstacle_term_sums_the_hinge_over_all_solids_and_walls_at_every_sam
     assert cost.obstacle(x) == pytest.approx(30.0 * 18.0 / (c**2 * count) * total, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("speed", "acceleration"), [(3.0, 6.0), (1.0, 10.0), (10.0, 5.0), (30.0, 2.0)], ids=["3/6", "1/10", "10/5", "30/2"]
+)
+def test_smoothness_is_weighed_by_the_share_of_the_fastest_run_that_goes_into_speeding_up(speed, acceleration) -> None:
+    """Eq. 38 with the weight of the header; the fastest run over 18 m is integrated here, step by step."""
+    dt, s, v, speeding = 1e-4, 0.0, 0.0, 0.0
+    while s < 9.0 and v < speed:  # a run is symmetric: this is its first half
+        v, speeding = v + acceleration * dt, speeding + dt
+        s += v * dt
+    share = speeding / (2.0 * (speeding + max(9.0 - s, 0.0) / speed))
+    cost = SplineCost(WORLD, START, GOAL, 16, Limits(speed, acceleration, 60.0), 0.45)
+    x = random_curve(cost, 4)
+    curve = BSpline(clamped_knots(16), cost.control_points(x), 3)
+    u = (np.arange(200_000) + 0.5) / 200_000
+    bending = (curve.derivative(2)(u) ** 2).sum(axis=1).mean() / 18.0
+    assert cost.smoothness(x) == pytest.approx(share**2 * bending, rel=2e-3)
+    assert cost.stretch(x) == pytest.approx((curve.derivative(1)(u) ** 2).sum(axis=1).mean() / 18.0, rel=1e-6)
+
+
 def test_the_stretch_is_least_for_the_straight_line_run_evenly() -> None:
     cost = SplineCost(World(WORLD.bounds), START, GOAL, 16, LIMITS, 0.3)
     x = cost.control_points(np.zeros(cost.size))[3:-3].ravel()
@@ -79,19 +98,19 @@ def test_the_hinge_joins_its_pieces_twice_continuously_differentiable() -> None:
 
 
 def test_moving_the_whole_world_changes_no_cost() -> None:
-    shift = np.array([100.0, -50.0, 7.0])
+    shift = np.array([4e6, -5e5, 7.0])
     moved = World(
         bounds=(tuple(shift), tuple(shift + np.array([20, 20, 4]))),
         obstacles=[
             Box(tuple(shift + np.array([9, 6, 0])), tuple(shift + np.array([10, 15, 4]))),
-            Cylinder((105, -41), 0.6, (7, 11)),
+            Cylinder((4e6 + 5, -5e5 + 9), 0.6, (7, 11)),
             Sphere(tuple(shift + np.array([14, 11, 2])), 1.0),
         ],
     )
     here = SplineCost(WORLD, START, GOAL, 16, LIMITS, 0.45)
     there = SplineCost(moved, START + shift, GOAL + shift, 16, LIMITS, 0.45)
     x = random_curve(here, 2)
-    assert there((x.reshape(-1, 3) + shift).ravel())[0] == pytest.approx(here(x)[0], rel=1e-9)
+    assert there((x.reshape(-1, 3) + shift).ravel())[0] == pytest.approx(here(x)[0], rel=1e-7)
 
 
 def test_a_curve_out_of_reach_of_everything_costs_nothing_for_obstacles() -> None:

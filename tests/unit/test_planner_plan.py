@@ -11,6 +11,7 @@ from scipy.interpolate import BSpline
 
 import planner
 from planner import Box, Cylinder, Limits, Plan, Sphere, World, plan
+from planner.certificate import Certificate
 from planner.jit import _STAMP
 
 LIMITS = Limits(speed=3.0, acceleration=6.0, jerk=60.0)
@@ -184,6 +185,76 @@ def test_an_end_outside_says_beyond_which_bound_and_by_how_much(start, goal, err
     assert (e.axis, e.side) == (axis, side)
     assert e.distance == pytest.approx(distance)
     assert f"{side} {'xyz'[axis]} bound" in str(e)
+
+
+@pytest.mark.parametrize(
+    ("world", "start", "radius", "error"),
+    [
+        (World(BOUNDS), (0.25, 10, 2), 0.25, planner.StartOutOfBounds),
+        (World(BOUNDS), (0, 10, 2), 0.0, planner.StartOutOfBounds),
+        (World(((0, 0, 0), (20, 20, 0.5))), (1, 10, 0.25), 0.25, planner.StartOutOfBounds),
+        (World(BOUNDS, [Box((9, 0, 0), (10, 15, 4))]), (8.75, 10, 2), 0.25, planner.StartInCollision),
+        (World(BOUNDS, [Sphere((5, 5, 2), 1)]), (6, 5, 2), 0.0, planner.StartInCollision),
+    ],
+)
+def test_an_end_at_the_radius_exactly_is_told_what_a_proof_lacks(world, start, radius, error) -> None:
+    with pytest.raises(error, match=r"is kept, but proving so takes \d\.\de-\d+ m more") as caught:
+        plan(world, start, (start[0], 18.0, start[2]), LIMITS, radius)
+    e = pickle.loads(pickle.dumps(caught.value))
+    assert e.distance == e.radius == radius
+    assert 0.0 < e.shortfall < 1e-6
+    assert str(e) == str(caught.value)
+
+
+@pytest.mark.parametrize("spare", [1e-9, 1e-6, 1e-3])
+def test_an_end_with_any_more_than_that_is_a_place_to_start_from(spare: float) -> None:
+    obstacles = [Box((9, 0, 0), (10, 15, 4))]
+    p = plan(World(BOUNDS, obstacles), (8.75 - spare, 10, 2), GOAL, LIMITS, 0.25)
+    assert p.certified
+    spline = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)
+    points = spline(np.linspace(0, p.trajectory.duration, 20001)[:-1])
+    assert box_distance(points, obstacles[0]).min() >= 0.25
+    assert 0.0 <= p.clearance <= spare
+
+
+@pytest.mark.parametrize("spare", [1e-8, 1e-5, 2e-3])
+def test_a_map_hardly_higher_than_the_vehicle_is_flown_through_the_middle(spare: float) -> None:
+    height = 2 * RADIUS + spare
+    wall = Box((9, 6, 0), (10, 15, height))
+    p = plan(World(((0, 0, 0), (20, 20, height)), [wall]), (1, 10, height / 2), (19, 10, height / 2), LIMITS, RADIUS)
+    z = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)(np.linspace(0, p.trajectory.duration, 9999)[:-1])
+    assert p.certified
+    assert RADIUS <= z[:, 2].min() <= z[:, 2].max() <= height - RADIUS
+
+
+@pytest.mark.parametrize("offset", [1e3, 5e5, 5e6, -1e7])
+def test_a_map_far_from_its_origin_is_planned_as_the_same_map_near_it(offset: float) -> None:
+    here = [Box((9, 6, 0), (10, 15, 4)), Box((5, 14, 0), (9, 15, 4))]
+    near = plan(World(BOUNDS, here), START, GOAL, LIMITS, RADIUS)
+    shift = np.array([offset, offset, 0.0])
+    there = [Box(tuple(shift + o.lower), tuple(shift + o.upper)) for o in here]
+    world = World((tuple(shift + BOUNDS[0]), tuple(shift + BOUNDS[1])), there)
+    p = plan(world, START + shift, GOAL + shift, LIMITS, RADIUS)
+    assert p.certified
+    assert p.length == pytest.approx(near.length, rel=1e-4)
+    assert p.clearance == pytest.approx(near.clearance, abs=2e-3)
+    points = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)(
+        np.linspace(0, p.trajectory.duration, 9999)[:-1]
+    )
+    assert min(box_distance(points, o).min() for o in there) >= RADIUS
+
+
+def test_a_clearance_that_takes_too_many_pieces_leaves_the_proof_of_the_radius(monkeypatch) -> None:
+    module = sys.modules["planner.plan"]  # the name in the package is the function's
+    real = module.certify
+
+    def spent(points, knots, world, radius, full=True):
+        return Certificate(False, -math.inf, -math.inf, 20_000) if full else real(points, knots, world, radius, full)
+
+    monkeypatch.setattr(module, "certify", spent)
+    p = plan(World(BOUNDS, WORLDS["wall"]), START, GOAL, LIMITS, RADIUS)
+    assert p.certified
+    assert 0.0 <= p.clearance <= sampled_clearance(p, WORLDS["wall"])
 
 
 def test_a_closed_room_is_not_planned_out_of() -> None:

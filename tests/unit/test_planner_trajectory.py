@@ -106,6 +106,29 @@ def test_a_limit_nothing_can_move_under_says_which() -> None:
     assert (caught.value.name, caught.value.value) == ("acceleration", 0.0)
 
 
+@pytest.mark.parametrize("value", [-1.0, 1e-200, 9e-7, 1.1e6, 1e300, np.inf, np.nan])
+@pytest.mark.parametrize("name", ["speed", "acceleration", "jerk"])
+def test_a_limit_no_vehicle_has_is_refused_with_the_range_there_is(name: str, value: float) -> None:
+    with pytest.raises(InfeasibleLimits, match=f"limit {name}: expected a number from 1e-06 to 1e[+]06") as caught:
+        Limits(**{"speed": 1.0, "acceleration": 1.0, "jerk": 1.0, name: value})
+    assert pickle.loads(pickle.dumps(caught.value)).name == name
+
+
+@pytest.mark.parametrize("speed", [1e-6, 1e6])
+@pytest.mark.parametrize("acceleration", [1e-6, 1e6])
+@pytest.mark.parametrize("jerk", [1e-6, 1e6])
+def test_the_ends_of_the_range_of_limits_are_still_flown(speed: float, acceleration: float, jerk: float) -> None:
+    limits = Limits(speed, acceleration, jerk)
+    knots = uniform_scaling(wavy(), limits)
+    curve = BSpline(knots, wavy(), 3)
+    t = np.linspace(0, knots[-1], 2001)[:-1]
+    ratios = [
+        np.linalg.norm(curve.derivative(k)(t), axis=1).max() / limit
+        for k, limit in ((1, speed), (2, acceleration), (3, jerk))
+    ]
+    assert 0.4 < max(ratios) <= 1.0 + 1e-9
+
+
 def world_around(points: np.ndarray, seed: int) -> World:
     rng = np.random.default_rng(seed)
     solids: list[Box | Cylinder | Sphere] = []
