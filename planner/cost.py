@@ -17,8 +17,8 @@ Where this leaves the printed equations:
   top speed and T that of the fastest run over D, from rest to rest, that the limits allow: tau = v/a and T = D/v + tau
   when there is room to reach v, that is v^2/a <= D; else the top speed is sqrt(a D), tau = sqrt(D/a) and T = 2 tau.
   With m = tau times that speed, both are the line above. J_stretch + J_smooth is then int |v|^2 + tau^2 |a|^2 dt in
-  other units, whose minimiser reaches its speed with the time constant tau. No weight is left to tune. A fast, weak vehicle
-  would round off more than a maze lets pass: `softest` then bounds m, the way in which the speed may change.
+  other units, whose minimiser reaches its speed with the time constant tau. No weight is left to tune. A fast, weak
+  vehicle would round off more than a maze lets pass: `softest` then bounds m, the way in which the speed may change.
 - Eq. 39 grows with the distance from an obstacle, so minimising it attracts. A hinge on the signed distance d repels,
   inside c = radius + buffer only; walls of the map are obstacles with d = distance to the wall.
 
