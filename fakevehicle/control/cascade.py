@@ -63,7 +63,8 @@ LOOPS = np.dtype(
 def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, period):
     """Position, velocity and attitude loops: from a setpoint and an estimate to body rates and thrust in `status`.
 
-    An axis with no position, velocity or acceleration asked for stands still (velocity zero).
+    An axis with no position, velocity or acceleration asked for stands still (velocity zero). Where only acceleration
+    is asked for the velocity loop rests, and the trim it had found (its integral and tilt terms) goes on being added.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     for i in range(3):
         j = VELOCITY + i
         if math.isnan(sp[3 + i]):
-            a = sp[6 + i] + bank[j].integral
+            a = sp[6 + i] + bank[j].integral + bank[j].kt * bank[j].t_out  # all of the trim, the tilt term's too
         else:
             a = fopid_step(bank, coefficients, states, j, sp[3 + i], nav[3 + i], sp[6 + i], status.pushed_a[i])
         if i == 0:

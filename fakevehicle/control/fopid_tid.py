@@ -9,12 +9,25 @@ Special cases: Kt = 0 is the paper's FOPID (eq. 42); Kp = 0, lambda = mu = 1 is 
 never change in flight. The paper's Algorithm 1 adds lambda + mu to u, which has no dimension to stand in: not done.
 
 D^(-lambda) is s^(1 - lambda) followed by a trapezoidal 1/s, so that the last thing in the chain is an integrator: the
-one anti-windup feeds. It holds Ki times the integral, so that a change of Ki does not bump the output. Rules:
+one a change of gains feeds. It holds Ki times the integral, so that a change of Ki does not bump the output.
 
-    back-calculation    I += T (u_sat - u) / T_t,   T_t = (Kp / Ki)^(1/lambda)
-                        but never past I = 0: the plain form winds the integral up the other way during a long
-                        saturation, and a fractional one takes many seconds to come back from there
-    conditional         no integration while it would push further into a limit that is active
+Anti-windup acts on what goes into the filters, never on the integrator alone. With w = u_sat - u:
+
+    e_c = e + w / Kp          the error that would have given u_sat (Hanus' conditioning); e while nothing saturates
+    tilt                      takes e_c
+    integral, w e_c < 0       would push further into the limit: its filter and its integrator hold still
+    integral, otherwise       takes e_c
+
+Kp e_c = u_sat - I - (the other terms), so while e_c is taken during saturation I = D^(-lambda) Ki/Kp (u_sat - I - ...):
+a fractional lag towards what the limit leaves over, of time constant (Kp/Ki)^(1/lambda). That is back-calculation with
+that T_t, the usual one for lambda = 1. Why the filters: D^(-lambda) and D^(-1/n) remember, and forget only with a power
+of time. A rule for the last integrator alone leaves s^(1 - lambda) before it with the memory of an error that was never
+integrated; while that error falls the filter's output is negative, the integral ends with the wrong sign, and the
+offset fades for minutes. A tilt filter that saw the whole error leaves as much.
+
+In e_c, w is no more than the loop's own output u - u_ff, and zero when that is on the way back already: where the
+feed-forward alone is too much, the loop has nothing to answer for and must not wind up against it. With Kp = 0 no error
+would have given u_sat; then e_c = e, which is conditional integration.
 
 Records instead of arguments: `LOOP` holds one loop's numbers, `BANK` the filter coefficients and states of all loops.
 """
@@ -35,7 +48,7 @@ LOOP = np.dtype(
         ("b", "f8"),  # setpoint weight of the proportional term
         ("period", "f8"),
         ("limit", "f8"),  # the integral stays within +-limit, in units of u
-        ("track", "f8"),  # 1 / T_t
+        ("back", "f8"),  # 1 / Kp, 0 without Kp: from u to the error it stands for
         ("n_tilt", "i8"),
         ("n_integral", "i8"),
         ("n_derivative", "i8"),
@@ -45,9 +58,11 @@ LOOP = np.dtype(
         ("f_y", "f8"),
         ("integral", "f8"),  # output of the integrator, gains included
         ("driven", "f8"),  # its input at the last call
-        ("p_out", "f8"),  # b r - y
-        ("t_out", "f8"),  # D^(-1/n) e
+        ("setpoint", "f8"),  # r at the last call
+        ("measured", "f8"),  # y at the last call
+        ("t_out", "f8"),  # D^(-1/n) e_c, also while kt is 0: its memory is true whenever kt becomes something
         ("d_out", "f8"),  # -D^mu F y
+        ("own", "f8"),  # u - u_ff of the last call
         ("primed", "f8"),  # 0 until the derivative has seen its first sample
     ]
 )
@@ -72,23 +87,16 @@ def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, push
     u, not limited.
     """
     loop = loops[i]
-    e = setpoint - measured
-    loop.p_out = loop.b * setpoint - measured
-    loop.t_out = 0.0
-    if loop.kt != 0.0:
-        loop.t_out = run_sections(coefficients, states, 3 * i + TILT, loop.n_tilt, e)
-    driven = 0.0
-    if loop.ki != 0.0:
-        driven = loop.ki * run_sections(coefficients, states, 3 * i + INTEGRAL, loop.n_integral, e)
-    driven += loop.ki0 * e
-    growth = 0.5 * loop.period * (driven + loop.driven)
-    loop.driven = driven
-    if pushed * growth < 0.0:
-        growth = 0.0
-    loop.integral += growth
-    if pushed * loop.integral < 0.0:  # the integral has a part in the excess: take it back, at most to zero
-        back = loop.period * loop.track * pushed
-        loop.integral = loop.integral + back if abs(back) < abs(loop.integral) else 0.0
+    loop.setpoint, loop.measured = setpoint, measured
+    conditioned = setpoint - measured
+    if pushed * loop.own < 0.0:
+        conditioned += loop.back * (pushed if abs(pushed) < abs(loop.own) else -loop.own)
+    loop.t_out = run_sections(coefficients, states, 3 * i + TILT, loop.n_tilt, conditioned)
+    if not pushed * conditioned < 0.0:
+        driven = loop.ki * run_sections(coefficients, states, 3 * i + INTEGRAL, loop.n_integral, conditioned)
+        driven += loop.ki0 * conditioned
+        loop.integral += 0.5 * loop.period * (driven + loop.driven)
+        loop.driven = driven
     loop.integral = min(max(loop.integral, -loop.limit), loop.limit)
     loop.d_out = 0.0
     if loop.kd != 0.0:
@@ -108,7 +116,8 @@ def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, push
         smooth = loop.f_b * (measured + loop.f_x) - loop.f_a * loop.f_y
         loop.f_x, loop.f_y = measured, smooth
         loop.d_out = run_sections(coefficients, states, 3 * i + DERIVATIVE, loop.n_derivative, -smooth)
-    return forward + loop.kp * loop.p_out + loop.kt * loop.t_out + loop.integral + loop.kd * loop.d_out
+    loop.own = loop.kp * (loop.b * setpoint - measured) + loop.kt * loop.t_out + loop.integral + loop.kd * loop.d_out
+    return forward + loop.own
 
 
 class LoopBank:
@@ -131,26 +140,35 @@ class LoopBank:
         self.states: FloatArray = np.zeros((3 * n, SECTIONS))
 
     def set_gains(
-        self, i: int, *, kp: float, kt: float, ki: float, ki0: float, kd: float, b: float, lam: float, limit: float
+        self, i: int, *, kp: float, kt: float, ki: float, ki0: float, kd: float, b: float, limit: float
     ) -> None:
         """Change loop `i`'s gains without a jump of its output: I takes up u_prev - (the other terms with new gains).
 
+        All of them: Kt and Kd may come from 0, and b counts as a gain. Only a loop without an integral has nothing to
+        take the difference up with, and one whose integral would pass `limit` takes up no more than that.
+
         Parameters
         ----------
-        lam : order lambda of the integral, for the tracking time only.
+        kp, kt, ki, ki0, kd, b : as in the law above.
         limit : bound of the integral, in units of u.
         """
         loop = self.loops[i]
-        before = loop["kp"] * loop["p_out"] + loop["kt"] * loop["t_out"] + loop["kd"] * loop["d_out"]
-        before += loop["integral"]
+        before = self._without_integral(i) + loop["integral"]
+        if loop["kd"] == 0.0:  # its filters stood still: let them begin anew, as if y had never changed
+            loop["primed"], loop["d_out"] = 0.0, 0.0
         loop["kp"], loop["kt"], loop["ki"], loop["ki0"], loop["kd"], loop["b"] = kp, kt, ki, ki0, kd, b
         loop["limit"] = limit
-        total = ki + ki0
-        loop["track"] = (total / kp) ** (1.0 / lam) if kp > 0.0 and total > 0.0 else 1.0 if total > 0.0 else 0.0
-        after = loop["kp"] * loop["p_out"] + loop["kt"] * loop["t_out"] + loop["kd"] * loop["d_out"]
+        loop["back"] = 1.0 / kp if kp > 0.0 else 0.0
+        after = self._without_integral(i)
         loop["integral"] = min(max(before - after, -limit), limit)
         if ki == ki0 == 0.0:
             loop["integral"] = 0.0
+
+    def _without_integral(self, i: int) -> float:
+        """The other terms of loop `i` at the last call, with the gains it has now."""
+        loop = self.loops[i]
+        proportional = loop["kp"] * (loop["b"] * loop["setpoint"] - loop["measured"])
+        return float(proportional + loop["kt"] * loop["t_out"] + loop["kd"] * loop["d_out"])
 
     def set_orders(
         self, i: int, *, lam: float, mu: float, tilt_n: float, band: tuple[float, float], derivative_cutoff: float
@@ -184,7 +202,7 @@ class LoopBank:
         """Loop `i` as new: no memory, no trim."""
         loop = self.loops[i]
         self.states[3 * i : 3 * i + 3] = 0.0
-        for name in ("f_x", "f_y", "integral", "driven", "p_out", "t_out", "d_out", "primed"):
+        for name in ("f_x", "f_y", "integral", "driven", "setpoint", "measured", "t_out", "d_out", "own", "primed"):
             loop[name] = 0.0
 
     def rebase(self, i: int) -> None:

@@ -155,7 +155,6 @@ class ControlTables:
                     ki0=float(p[name + "KI0"]),
                     kd=float(p[name + "KD"]),
                     b=float(p[name + "B"]),
-                    lam=self._orders[loop.name][0],
                     limit=float(p[name + "ILIM"]),
                 )
 

@@ -200,6 +200,16 @@ def test_velocity_and_acceleration_setpoints_are_followed_where_no_position_is_g
     assert float(flight.stack.truth.velocity_n[1] - before[1]) == pytest.approx(1.3, abs=0.4)
 
 
+def test_no_acceleration_asked_for_in_a_trimmed_hover_neither_sinks_nor_climbs() -> None:
+    flight = Flight(seed=7)
+    ground = flight.rest()
+    flight.fly(12.0, still(ground - [0.0, 0.0, 3.0]))  # at full climb rate, so that there is trim to be lost
+    before = flight.stack.truth.velocity_n.copy()
+    flight.fly(3.0, Setpoint(acceleration_n=np.zeros(3)))
+    drift = (flight.stack.truth.velocity_n - before) / 3.0
+    assert abs(float(drift[2])) < 0.06  # [m/s^2]
+
+
 def test_gains_change_in_flight_without_a_bump() -> None:
     flight = Flight(seed=8)
     hover = flight.climb()

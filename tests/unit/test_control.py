@@ -92,6 +92,25 @@ def test_full_thrust_goes_to_height_first() -> None:
     assert status["pushed_a"][0] < 0.0
 
 
+def test_an_acceleration_alone_keeps_all_of_the_trim_the_velocity_loop_had_found() -> None:
+    tables = ControlTables(X500, ParameterSet(PARAMETERS))
+    tables.rest(0.0)
+    setpoint, nav = np.full(SETPOINT, np.nan), np.zeros(NAVIGATION)
+    nav[6] = 1.0
+    args = (X500.record()[0], tables.bank.loops, tables.bank.coefficients, tables.bank.states, 0.004)
+    setpoint[3:6], setpoint[9] = 0.0, 0.0
+    nav[5] = 0.05  # it sinks a little for two seconds, then stands still: what stays is the trim
+    for k in range(600):
+        nav[5] = 0.05 if k < 500 else 0.0
+        outer_loops(setpoint, nav, tables.gains[0], tables.status[0], *args)
+    held = float(tables.status[0]["thrust"])
+    assert held > 1.02 * X500.mass * GRAVITY
+    setpoint[3:6], setpoint[6:9] = np.nan, 0.0
+    for _ in range(50):
+        outer_loops(setpoint, nav, tables.gains[0], tables.status[0], *args)
+        assert tables.status[0]["thrust"] == pytest.approx(held, rel=1e-3)
+
+
 def test_orders_wait_for_the_motors_to_rest() -> None:
     parameters = ParameterSet(PARAMETERS)
     tables = ControlTables(X500, parameters)
