@@ -38,6 +38,9 @@ COMPONENT_ID = mavlink.MAV_COMP_ID_ONBOARD_COMPUTER
 AUTOPILOT_COMPONENT = mavlink.MAV_COMP_ID_AUTOPILOT1
 HEARTBEAT_US = 1_000_000
 VEHICLE_SILENT_US = 3_000_000
+POSITION_SILENT_US = 1_000_000
+ASTRAY_M, ASTRAY_US = 2.0, 1_000_000
+"""Farther than this from the reference for this long, and the flight lands: no plan vouches for such a place."""
 PARAMETER_WAIT_US = 2_000_000
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
@@ -88,11 +91,13 @@ class Companion:
         self._started_us: int | None = None
         self._entered_us = 0
         self._streaming_us = 0
+        self._on_track_us = 0
         self._heartbeat_due_us = 0
         self._command: Command | None = None
         self._queue: list[Command] = []
         self._land_asked = False
         self._plan_refusal = ""
+        self._impostor_told = False
         self._was_landing = False
         self._withheld = False
         self._readiness: tuple[str, ...] = ()
@@ -137,7 +142,7 @@ class Companion:
         match item:
             case Datagram(link=link, data=data, peer=peer) if link == VEHICLE_LINK:
                 for packet in self.framer.packets(data):
-                    self._hear(now_us, packet, peer)
+                    self._hear(now_us, packet, peer, out)
                 out.extend(Datagram(ground, data) for ground in self.config.ground_links)
             case Datagram(link=link, data=data) if link in self.config.ground_links and self._may_speak:
                 out.append(Datagram(VEHICLE_LINK, data, self._vehicle_peer))
@@ -146,17 +151,38 @@ class Companion:
             case OperatorCommand.LAND:
                 self._land_asked = True
 
-    def _hear(self, now_us: int, packet: Packet, peer: Address | None) -> None:
-        """Obey only the configured vehicle's autopilot, or the first autopilot that says it is one."""
-        if self._vehicle is None and packet.message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT:
-            heartbeat = self._mav.decode(bytearray(packet.raw))
-            if packet.component_id == AUTOPILOT_COMPONENT and heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID:
-                self._vehicle = packet.system_id
-        if packet.system_id != self._vehicle or packet.component_id != AUTOPILOT_COMPONENT:
+    def _hear(self, now_us: int, packet: Packet, peer: Address | None, out: list[Output]) -> None:
+        """Obey only the configured vehicle's autopilot, or the first autopilot that says it is one.
+
+        Its address is fixed by the first HEARTBEAT: whoever else uses the same system id from elsewhere is another.
+        """
+        if self._heard_us is None and self._is_autopilot(packet):
+            self._vehicle, self._vehicle_peer, self._heard_us = packet.system_id, peer, now_us
+        if not self.is_vehicle(packet, peer):
             self.foreign_packets += 1
+            if self._heard_us is not None and packet.system_id == self._vehicle and not self._impostor_told:
+                self._impostor_told = peer != self._vehicle_peer
+                if self._impostor_told:
+                    where = "elsewhere" if peer is None else f"{peer[0]}:{peer[1]}"
+                    text = f"another sender at {where} also calls itself system {self._vehicle}: it is not obeyed"
+                    out.append(Note(Level.WARNING, text))
             return
-        self._heard_us, self._vehicle_peer = now_us, peer
+        self._heard_us = now_us
         self.telemetry.take(now_us, packet, self._mav)
+
+    def is_vehicle(self, packet: Packet, peer: Address | None) -> bool:
+        """Whether a packet is from the autopilot that is obeyed."""
+        known = self._heard_us is not None and peer == self._vehicle_peer
+        return known and packet.system_id == self._vehicle and packet.component_id == AUTOPILOT_COMPONENT
+
+    def _is_autopilot(self, packet: Packet) -> bool:
+        """Whether a packet is a HEARTBEAT of an autopilot that may be obeyed."""
+        if packet.message_id != mavlink.MAVLINK_MSG_ID_HEARTBEAT or packet.component_id != AUTOPILOT_COMPONENT:
+            return False
+        heartbeat = self._mav.decode(bytearray(packet.raw))
+        return packet.system_id == (self._vehicle or packet.system_id) and (
+            heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID
+        )
 
     def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
         if self.phase is not Phase.PLANNING or not self.itinerary.wants(ready.request_id):
@@ -254,9 +280,26 @@ class Companion:
         if not self.autopilot.in_control(self.telemetry):
             self.failure = f"the vehicle left {self.autopilot.offboard_mode}; it is not fought for"
             return Event.MODE_LOST
+        astray = self._astray(now_us)
+        if astray:
+            self.failure = astray
+            return Event.ASTRAY
         if self.itinerary.advance(now_us):
             out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.step.kind}"))
         return Event.STEPS_DONE if self.itinerary.finished() else None
+
+    def _astray(self, now_us: int) -> str:
+        """Why the vehicle can no longer be trusted to be where the plan is safe, or nothing."""
+        telemetry = self.telemetry
+        if now_us - (telemetry.position_us or 0) > POSITION_SILENT_US:
+            return f"no position from the vehicle for {POSITION_SILENT_US / 1e6:g} s: landing"
+        here = telemetry.position_n - self.origin_n
+        error = float(np.linalg.norm(here - self.itinerary.reference(now_us).position_m))
+        if error <= ASTRAY_M:
+            self._on_track_us = now_us
+        if now_us - self._on_track_us <= ASTRAY_US:
+            return ""
+        return f"the vehicle is {error:.1f} m from its reference for {ASTRAY_US / 1e6:g} s: landing"
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
         if not self.telemetry.armed:
@@ -300,6 +343,8 @@ class Companion:
         before, self.phase = self.phase, after(self.phase, event)
         if self.phase is before:
             return
+        if before is Phase.ARMING and self.phase is Phase.FAILED and event in (Event.LAND_ASKED, Event.REFUSED):
+            out.append(self._packet(self.autopilot.disarm().message(self._target)))  # it may arm after all
         self._entered_us, self._command = now_us, None
         bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
         text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
@@ -319,6 +364,7 @@ class Companion:
             case Phase.ARMING:
                 self._command = self.autopilot.arm()
             case Phase.FLYING:
+                self._on_track_us = now_us
                 self.itinerary.begin(now_us)
             case Phase.LANDING:
                 self._command = self.autopilot.land()

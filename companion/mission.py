@@ -16,23 +16,26 @@ from companion.errors import MissionError
 from companion.seam import Vector
 from planner import Box, Cylinder, Limits, Sphere, World
 
-MAX_FILE_BYTES = 4_000_000
+MAX_FILE_BYTES = 1_000_000
 """A mission is written by people; beyond this it is something else."""
+MAX_DEPTH = 32
+"""Of nested lists and mappings; a mission needs five."""
 
+Coordinate = Annotated[float, Field(ge=-1e5, le=1e5)]  # [m]: local frames are flat that far, and floats are fine
+Size = Annotated[float, Field(gt=0, le=1e5)]  # [m]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
 
 class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class Range(_Model):
     """A closed interval, written `[low, high]` [m]."""
 
-    low: Finite
-    high: Finite
+    low: Coordinate
+    high: Coordinate
 
     @model_validator(mode="before")
     @classmethod
@@ -59,9 +62,9 @@ class Extent(_Model):
 class Place(_Model):
     """A point [m] from the world origin."""
 
-    north: Finite
-    east: Finite
-    altitude: Finite
+    north: Coordinate
+    east: Coordinate
+    altitude: Coordinate
 
     def ned(self) -> Vector:
         """The point in the mission frame, z down."""
@@ -71,17 +74,17 @@ class Place(_Model):
 class CylinderShape(_Model):
     """An upright cylinder [m]."""
 
-    north: Finite
-    east: Finite
-    radius: Positive
+    north: Coordinate
+    east: Coordinate
+    radius: Size
     altitude: Range
 
 
 class SphereShape(_Model):
-    north: Finite
-    east: Finite
-    altitude: Finite
-    radius: Positive
+    north: Coordinate
+    east: Coordinate
+    altitude: Coordinate
+    radius: Size
 
 
 class Obstacle(_Model):
@@ -106,32 +109,36 @@ class WorldModel(_Model):
 class StartPose(_Model):
     """Where the vehicle stands before the mission, on the ground at altitude 0, and where its nose points."""
 
-    north: Finite
-    east: Finite
-    heading_deg: Finite = 0.0
+    north: Coordinate
+    east: Coordinate
+    heading_deg: Annotated[float, Field(ge=-360, le=360)] = 0.0
 
 
 class VehicleModel(_Model):
     start: StartPose
-    radius: Positive = 0.35  # [m] half the tip-to-tip diagonal of an X500: 0.5 m wheelbase, 10 inch propellers
+    radius: Annotated[float, Field(gt=0, le=100)] = (
+        0.35  # [m] half the tip-to-tip diagonal of an X500: 0.5 m wheelbase, 10 inch propellers
+    )
 
 
 class LimitsModel(_Model):
     """What the trajectory may ask of the vehicle."""
 
-    speed: Positive = 3.0  # [m/s]
-    acceleration: Positive = 6.0  # [m/s^2]
-    jerk: Positive = 60.0  # [m/s^3]
-    climb: Positive = 1.0  # [m/s] vertical speed of the takeoff
-    clearance: NotNegative = 0.4  # [m] kept by the plan between the vehicle's hull and every obstacle
+    speed: Annotated[float, Field(ge=0.01, le=100)] = 3.0  # [m/s]
+    acceleration: Annotated[float, Field(ge=0.01, le=1000)] = 6.0  # [m/s^2]
+    jerk: Annotated[float, Field(ge=0.01, le=1e5)] = 60.0  # [m/s^3]
+    climb: Annotated[float, Field(ge=0.3, le=20)] = 1.0  # [m/s] of the takeoff; slower is not seen as one (PX4 disarms)
+    clearance: Annotated[float, Field(ge=0, le=100)] = (
+        0.4  # [m] kept by the plan between the vehicle's hull and every obstacle
+    )
 
 
 class Takeoff(_Model):
-    altitude: Positive  # [m]
+    altitude: Size  # [m]
 
 
 class Hold(_Model):
-    seconds: NotNegative
+    seconds: Annotated[float, Field(ge=0, le=86_400)]
 
 
 class Land(_Model):
@@ -166,9 +173,9 @@ class Step(_Model):
 class Wind(_Model):
     """Velocity of the air over ground [m/s]."""
 
-    north: Finite = 0.0
-    east: Finite = 0.0
-    down: Finite = 0.0
+    north: Annotated[float, Field(ge=-60, le=60)] = 0.0
+    east: Annotated[float, Field(ge=-60, le=60)] = 0.0
+    down: Annotated[float, Field(ge=-60, le=60)] = 0.0
 
 
 class Expect(_Model):
@@ -267,10 +274,10 @@ def parse_mission(data: bytes, file: str) -> Mission:
         raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
     try:
         text = data.decode("utf-8")
-        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, Loader=yaml.SafeLoader)):
-            raise MissionError(file, ["found a YAML alias (*name), expected every value written out"])
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
-        document = yaml.safe_load(text)
+        _refuse_traps(text, file)
+        loader = yaml.SafeLoader(text)
+        node = loader.get_single_node()
+        document = None if node is None else loader.construct_document(node)
     except UnicodeDecodeError as error:
         raise MissionError(file, [f"byte {error.start}: not UTF-8 text"]) from error
     except yaml.MarkedYAMLError as error:
@@ -289,6 +296,18 @@ def parse_mission(data: bytes, file: str) -> Mission:
         return Mission.model_validate(document)
     except ValidationError as error:
         raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
+
+
+def _refuse_traps(text: str, file: str) -> None:
+    """What is YAML and yet no mission: aliases, which a few bytes can make endless, and bottomless nesting."""
+    depth = 0
+    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+        line = event.start_mark.line + 1 if event.start_mark is not None else 1
+        if isinstance(event, yaml.AliasEvent):
+            raise MissionError(file, [f"line {line}: found a YAML alias (*name), expected every value written out"])
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > MAX_DEPTH:
+            raise MissionError(file, [f"line {line}: found more than {MAX_DEPTH} levels of nesting"])
 
 
 def _problem(item: Any, root: yaml.Node | None) -> str:

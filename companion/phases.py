@@ -11,9 +11,10 @@ not know.
     ARMING --armed--> FLYING --steps done--> LANDING --disarmed--> DONE
 
 From PLANNING on setpoints are streamed; before FLYING nothing has left the ground, so a refusal ends in FAILED. In the
-air the only way out is down: the operator who asks to land gets a landing. Two things end a flight without landing it:
-a pilot (or a failsafe) who takes the mode is never fought (HANDED_OVER: we look on, forward and record until the
-vehicle disarms), and a vehicle that falls silent cannot be helped (FAILED).
+air the only way out is down: an operator who asks to land gets a landing, and so does a vehicle that strays from its
+reference. Two things end a flight without landing it: a pilot (or a failsafe) who takes the mode is never fought
+(HANDED_OVER: we look on, forward and record until the vehicle disarms), and a vehicle that falls silent cannot be
+helped (FAILED).
 """
 
 from enum import Enum
@@ -42,6 +43,7 @@ class Event(Enum):
     DISARMED = "disarmed"
     REFUSED = "refused"  # a command denied, no plan, or a time-out on the ground
     LAND_ASKED = "land asked"  # by the operator
+    ASTRAY = "astray"  # too far from the reference for too long, or the position is gone
     MODE_LOST = "mode lost"  # the vehicle left our mode and we did not ask for it
     VEHICLE_SILENT = "vehicle silent"
 
@@ -69,6 +71,7 @@ TRANSITIONS: dict[tuple[Phase, Event], Phase] = {
     (Phase.ARMING, Event.VEHICLE_SILENT): Phase.FAILED,
     (Phase.FLYING, Event.STEPS_DONE): Phase.LANDING,
     (Phase.FLYING, Event.LAND_ASKED): Phase.LANDING,
+    (Phase.FLYING, Event.ASTRAY): Phase.LANDING,
     (Phase.FLYING, Event.MODE_LOST): Phase.HANDED_OVER,
     (Phase.FLYING, Event.DISARMED): Phase.FAILED,
     (Phase.FLYING, Event.VEHICLE_SILENT): Phase.FAILED,

@@ -8,6 +8,7 @@ It is taken in the mission frame: the estimate less the local origin that the co
 truth relative to where it stood at that moment. So what the estimator drifts from then on counts against the flight.
 """
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -50,6 +51,7 @@ class Track:
     position_s: FloatArray  # (k,)
     position_m: FloatArray  # (k, 3) truth where there is one, else the estimate
     error: FloatArray  # (k,) [m]
+    aloft_m: FloatArray  # (j, 3) the same with the landing, until the vehicle disarmed
 
 
 class FlightMeter:
@@ -66,27 +68,34 @@ class FlightMeter:
         self._first_us: int | None = None
         self._last_us = 0
         self.airborne_us: list[int] = []  # [first, last] tick of Phase.FLYING
+        self._aloft_until_us = 0  # last tick at which it was armed after that: the landing belongs to the clearance
 
     def __call__(self, tick: Tick) -> None:
         self._first_us = tick.now_us if self._first_us is None else self._first_us
         self._last_us = tick.now_us
         for received_us, item in tick.inputs:
             if isinstance(item, Datagram) and item.link == VEHICLE_LINK:
-                self._hear(received_us, item.data)
+                self._hear(received_us, item)
         if self._companion.phase is Phase.FLYING:
             self.airborne_us = [self.airborne_us[0] if self.airborne_us else tick.now_us, tick.now_us]
+        if self.airborne_us and self._companion.telemetry.armed:
+            self._aloft_until_us = tick.now_us
         for output in tick.outputs:
             if isinstance(output, Reference):
                 self._engaged_us = tick.now_us if self._engaged_us is None else self._engaged_us
                 self._references.append((tick.now_us, *output.position_m))
                 self._setpoints_us.append(tick.sent_us)
 
-    def _hear(self, received_us: int, data: bytes) -> None:
-        if _is_one_packet(data) and data[7:10] not in (TRUTH_ID, ESTIMATE_ID):
+    def _hear(self, received_us: int, item: Datagram) -> None:
+        if _is_one_packet(item.data) and item.data[7:10] not in (TRUTH_ID, ESTIMATE_ID):
             return  # nine datagrams in ten, at a tenth of the price of framing them
-        for packet in self._framer.packets(data):
+        for packet in self._framer.packets(item.data):
+            if not self._companion.is_vehicle(packet, item.peer):
+                continue
             if packet.message_id == ESTIMATE:
-                self._estimates.append((received_us, *local_position_ned(packet.payload)[:3]))
+                position = local_position_ned(packet.payload)[:3]
+                if all(map(math.isfinite, position)):
+                    self._estimates.append((received_us, *position))
             elif packet.message_id == TRUTH:
                 self._truths.append((received_us, *truth_position(packet.payload)))
 
@@ -132,6 +141,7 @@ class FlightMeter:
         position = to_mission_frame(rows)
         first, last = self.airborne_us
         flown = (rows[:, 0] >= first) & (rows[:, 0] <= last)
+        aloft = position[(rows[:, 0] >= first) & (rows[:, 0] <= self._aloft_until_us)]
         if not flown.any():
             return None
         at, position = rows[flown, 0], position[flown]
@@ -143,6 +153,7 @@ class FlightMeter:
             position_s=(at - t0) / 1e6,
             position_m=position,
             error=np.linalg.norm(position - wanted, axis=1),
+            aloft_m=aloft,
         )
 
     def setpoint_gaps_ms(self) -> FloatArray:
@@ -185,11 +196,13 @@ def judge(companion: Companion, meter: FlightMeter) -> Verdict:
     gaps = meter.setpoint_gaps_ms()
     numbers: dict[str, float | None] = {
         "tracking_error_p95_m": flown.p95 if flown else None,
-        "min_clearance_m": least_clearance(mission, track.position_m) if track else None,
+        "min_clearance_m": least_clearance(mission, track.aloft_m) if track else None,
         "duration_max_s": meter.duration_s,
         "setpoint_gap_p99_ms": float(np.percentile(gaps, 99)) if len(gaps) else None,
     }
     failed = failed_expectations(mission, numbers)
+    if numbers["min_clearance_m"] is not None and numbers["min_clearance_m"] < 0.0:
+        failed.append(f"the hull was {-numbers['min_clearance_m']:.3f} m inside an obstacle")
     return Verdict(
         ok=companion.phase is Phase.DONE and not failed and not companion.failure,
         mission=mission.name,

@@ -58,6 +58,7 @@ class LinkCounters:
     rx_datagrams, rx_bytes, tx_datagrams, tx_bytes : handed over and accepted by the kernel.
     send_errors : datagrams the kernel would not take (no route, buffer full).
     refused : ICMP "port unreachable" answers: nobody listens at a peer's address.
+    handed : datagrams given to `send`, each counted once, however many peers (or none) were there to get it.
     drops : datagrams the kernel threw away since the receive buffer was full; told with the next one that gets
         through (Linux; 0 elsewhere).
     """
@@ -69,6 +70,7 @@ class LinkCounters:
     send_errors: int = 0
     refused: int = 0
     drops: int = 0
+    handed: int = 0
 
 
 class UdpLink:
@@ -99,7 +101,7 @@ class UdpLink:
         self._buffer = bytearray(65536)
         self._view = memoryview(self._buffer)
         self._rx_datagrams = self._rx_bytes = self._tx_datagrams = self._tx_bytes = 0
-        self._send_errors = self._refused = self._drops = 0
+        self._send_errors = self._refused = self._drops = self._handed = 0
         self._socket = self._open(local)
 
     def _open(self, local: Address | None) -> socket.socket:
@@ -159,6 +161,7 @@ class UdpLink:
             send_errors=self._send_errors,
             refused=self._refused,
             drops=self._drops,
+            handed=self._handed,
         )
 
     def receive(self) -> list[Received]:
@@ -199,6 +202,7 @@ class UdpLink:
 
     def send(self, datagram: Datagram) -> None:
         """Send to `datagram.peer`, or to every known peer when it is None. Failures are counted, not raised."""
+        self._handed += 1
         for peer in (datagram.peer,) if datagram.peer is not None else self.peers:
             for _ in range(2):
                 try:

@@ -96,6 +96,9 @@ class Px4:
     def arm(self) -> Command:
         return Command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, (1.0,), "arm")
 
+    def disarm(self) -> Command:
+        return Command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, (0.0,), "disarm")
+
     def land(self) -> Command:
         return Command(
             mavlink.MAV_CMD_DO_SET_MODE, (mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MAIN_AUTO, AUTO_LAND), "land"

@@ -6,7 +6,7 @@ stderr without a traceback. Heavy imports happen inside the commands, so that `-
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
@@ -23,7 +23,9 @@ app.add_typer(log_app, name="log")
 
 MissionFile = Annotated[Path, typer.Argument(metavar="MISSION", help="Mission file (YAML).")]
 LogFile = Annotated[Path, typer.Argument(metavar="LOG", help="Recording (MCAP).")]
-Seed = Annotated[int, typer.Option(help="Seed of everything random: planner, and simulated sensors.", min=0)]
+Seed = Annotated[
+    int, typer.Option(help="Seed of everything random: planner, and simulated sensors.", min=0, max=2**31 - 1)
+]
 Json = Annotated[bool, typer.Option("--json", help="Print exactly one JSON object on stdout.")]
 RecordDirectory = Annotated[Path, typer.Option("--record", metavar="DIR", help="Directory for the recording.")]
 Outs = Annotated[list[str] | None, typer.Option("--out", metavar="URL", help="Forward to and from a ground station.")]
@@ -50,7 +52,7 @@ def fly(
         int | None, typer.Option(help="Obey only this vehicle (default: the first heard).", min=1, max=255)
     ] = None,
     wait: Annotated[
-        float, typer.Option(help="How long to wait for the vehicle's first HEARTBEAT [s].", min=0.1)
+        float, typer.Option(help="How long to wait for the vehicle's first HEARTBEAT [s].", min=0.1, max=86_400.0)
     ] = 60.0,
     json: Json = False,
 ) -> None:
@@ -90,7 +92,7 @@ def plan(
 def replay(
     log: LogFile,
     to: Annotated[str, typer.Option(metavar="URL", help="Ground station, e.g. udpout:127.0.0.1:14550.")],
-    rate: Annotated[float, typer.Option("-r", "--rate", help="Speed, 1 is real time.", min=0.001)] = 1.0,
+    rate: Annotated[float, typer.Option("-r", "--rate", help="Speed, 1 is real time.", min=0.001, max=1000.0)] = 1.0,
     json: Json = False,
 ) -> None:
     """Send a recording's vehicle traffic to a ground station, with its original spacing."""
@@ -115,26 +117,45 @@ def log_info(log: LogFile, json: Json = False) -> None:
     raise typer.Exit(show_info(log, json))
 
 
+FLIGHT_KEYS = (
+    *("mission", "seed", "duration_s", "path_length_m", "tracking_error_p95_m", "min_clearance_m"),
+    *("setpoint_rate_hz", "setpoint_gap_max_ms", "recording"),
+)
+"""What the JSON of a flight always has; null where an error came first."""
+
+INTERRUPTED = 130
+"""What the command-line library exits with on Ctrl-C where no flight listens for it."""
+
+
 def main() -> None:
-    """Console script; turns known errors into one line (and a JSON object, if asked) and exit code 1."""
+    """Console script: a known error is one line on stderr (and a JSON object, if asked for) and exit code 1."""
     try:
         app()
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            _fail("interrupted", 1)
+        raise
     except Exception as error:
-        roots = _known_errors()
-        if not isinstance(error, roots):
+        if not isinstance(error, _known_errors()):
             raise
-        print(f"companion: {error}", file=sys.stderr)
-        if "--json" in sys.argv:
-            from companion.cli.show import print_json
+        _fail(str(error), 2 if type(error).__name__ == "EndpointError" else 1)
 
-            print_json({"ok": False, "error": str(error)})
-        sys.exit(2 if type(error).__name__ == "EndpointError" else 1)
+
+def _fail(text: str, code: int) -> NoReturn:
+    print(f"companion: {text}", file=sys.stderr)
+    if "--json" in sys.argv:
+        from companion.cli.show import print_json
+
+        flight = any(command in sys.argv for command in ("demo", "fly", "simulate"))
+        print_json({"ok": False, "failure": text, **dict.fromkeys(FLIGHT_KEYS if flight else ())})
+    sys.exit(code)
 
 
 def _known_errors() -> tuple[type[Exception], ...]:
     from companion.errors import CompanionError
+    from fakevehicle.errors import VehicleError
     from logs.errors import LogsError
     from planner.errors import PlannerError
     from wire.errors import WireError
 
-    return (CompanionError, LogsError, PlannerError, WireError)
+    return (CompanionError, LogsError, PlannerError, VehicleError, WireError)

@@ -1,7 +1,7 @@
 """`companion fly` and `companion demo`: a mission over UDP, recorded, judged at the end."""
 
+import gc
 import re
-import signal
 import subprocess
 import time
 from collections.abc import Iterator, Mapping
@@ -10,12 +10,12 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
-from types import FrameType
 
 import numpy as np
 from rich.console import Console
 
 from companion.cli import show
+from companion.cli.operator import STOPPED, Operator
 from companion.core import VEHICLE_LINK, Companion, CompanionConfig
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
@@ -23,7 +23,6 @@ from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.mission import Mission, parse_mission, read_mission_file
-from companion.seam import OperatorCommand
 from companion.verdict import FlightMeter, judge
 from logs.errors import RecordingError
 from logs.recorder import Recorder
@@ -31,53 +30,20 @@ from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
 
-class Operator:
-    """Ctrl-C: the first one asks to land, the second one stops."""
-
-    def __init__(self) -> None:
-        self.asked = 0
-        self._told = 0
-
-    @contextmanager
-    def listening(self) -> Iterator[None]:
-        """Catch SIGINT and SIGTERM as long as this lasts."""
-
-        def hear(number: int, frame: FrameType | None) -> None:
-            self.asked += 1
-
-        before = {s: signal.signal(s, hear) for s in (signal.SIGINT, signal.SIGTERM)}
-        try:
-            yield
-        finally:
-            for number, handler in before.items():
-                signal.signal(number, handler)
-
-    def __call__(self, now_us: int) -> OperatorCommand | None:
-        if self.asked == 0 or self._told:
-            return None
-        self._told = 1
-        return OperatorCommand.LAND
-
-    def stop(self) -> bool:
-        return self.asked > 1
-
-
 def fly_demo(record: Path, outs: list[str], seed: int, as_json: bool) -> int:
     """The embedded default: the bundled vehicle as its own process, on a port the system chooses."""
-    from companion.cli.vehicle import start_vehicle, stop_vehicle
+    from companion.cli.vehicle import running_vehicle
 
     data = (resources.files("missions") / "l_shape.yaml").read_bytes()
     mission = parse_mission(data, "missions/l_shape.yaml")
     file = recording_file(record, mission)
     with UdpLink(VEHICLE_LINK, Endpoint.parse("udpin:127.0.0.1:0")) as free:
         host, port = free.local_address
-    vehicle = start_vehicle(mission, f"udpout:{host}:{port}", seed, _vehicle_log(file))
-    try:
-        endpoints = {VEHICLE_LINK: Endpoint("udpin", host, port)} | ground_endpoints(outs)
-        config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
-        return _fly(mission, data, endpoints, file, config, as_json, watch=vehicle)
-    finally:
-        stop_vehicle(vehicle)
+    endpoints = {VEHICLE_LINK: Endpoint("udpin", host, port)} | ground_endpoints(outs)
+    config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
+    operator, url = Operator(), f"udpout:{host}:{port}"
+    with operator.listening(), running_vehicle(mission, url, seed, _vehicle_log(file)) as vehicle:
+        return _fly(mission, data, endpoints, file, config, as_json, operator, watch=vehicle)
 
 
 def fly_mission(
@@ -101,7 +67,9 @@ def fly_mission(
         speaks_first=endpoints[VEHICLE_LINK].kind == "udpout",
         wait_vehicle_s=wait_s,
     )
-    return _fly(mission, data, endpoints, recording_file(record, mission), config, as_json)
+    operator = Operator()
+    with operator.listening():
+        return _fly(mission, data, endpoints, recording_file(record, mission), config, as_json, operator)
 
 
 def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:
@@ -126,14 +94,14 @@ def _fly(
     file: Path,
     config: CompanionConfig,
     as_json: bool,
+    operator: Operator,
     watch: "subprocess.Popen[bytes] | None" = None,
 ) -> int:
     """Prepare, fly, close everything properly, judge; returns the exit code."""
     out = show.console()
-    companion, operator = Companion(mission, config), Operator()
+    companion = Companion(mission, config)
     meter = FlightMeter(companion)
     with ExitStack() as stack:
-        stack.enter_context(operator.listening())
         with _open(endpoints):
             pass  # a busy port is told before the kernels are compiled
         planning = WorkerPlanning(mission.planner_world())
@@ -147,6 +115,8 @@ def _fly(
         progress = stack.enter_context(show.ProgressLine(companion, meter, out))
         taps: list[Tap] = [meter, RecordingTap(companion, recorder), progress]
         stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
+        gc.collect()
+        gc.freeze()  # what is here now stays: no collection in flight walks through it again
         pace = fly_realtime(companion, links, planning, taps, operator=operator, stop=stop)
         if not companion.over:
             companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
@@ -206,7 +176,7 @@ def _ended(process: "subprocess.Popen[bytes] | None") -> bool:
 def _why_stopped(process: "subprocess.Popen[bytes] | None", file: Path) -> str:
     if process is not None and process.poll() is not None:
         return f"the vehicle process ended with exit code {process.returncode}: see {_vehicle_log(file)}"
-    return "stopped by the operator without landing"
+    return STOPPED
 
 
 def _vehicle_log(file: Path) -> Path:

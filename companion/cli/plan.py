@@ -10,8 +10,8 @@ from companion.drivers.planning import answer, make_plan
 from companion.errors import CompanionError
 from companion.itinerary import Itinerary
 from companion.mission import load_mission
-from companion.seam import PlanReady
-from planner import warm_up
+from companion.seam import PlanReady, PlanWanted
+from planner import World, warm_up
 
 
 def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int:
@@ -24,27 +24,35 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
         warm_up()
         answers = [answer(world, wanted) for wanted in requests]
     ok = all(a.certified for a in answers)
+    if plot is not None:
+        _draw(world, requests, answers, plot, out)
     if as_json:
         legs = [_leg_json(a) for a in answers]
         show.print_json({"ok": ok, "mission": mission.name, "seed": seed, "legs": legs})
     else:
         _print(mission.name, answers)
-    if plot is not None:
-        from planner.plot import save_plot
-
-        certified = [w for w, a in zip(requests, answers, strict=True) if a.certified]
-        for wanted in certified:
-            file = plot if len(requests) == 1 else plot.with_stem(f"{plot.stem}-step{wanted.request_id}")
-            names = ("north", "east", "-altitude")
-            try:
-                save_plot(world, make_plan(world, wanted), file, wanted.limits, wanted.radius, names)
-            except (OSError, ValueError) as error:
-                raise CompanionError(f"{file}: cannot draw the plan: {error}") from error
-            out.print(f"plot: {file}")
     for leg in answers:
         if not leg.certified:
             out.print(f"[bold red]✗[/] step {leg.request_id}: {show.plain(leg.text)}", soft_wrap=True)
     return 0 if ok else 1
+
+
+def _draw(world: World, requests: list[PlanWanted], answers: list[PlanReady], plot: Path, out: Console) -> None:
+    """A picture of every certified leg: FILE for one leg, FILE-stepN for several."""
+    from planner.plot import save_plot
+
+    if plot.is_dir() or not plot.suffix:
+        raise CompanionError(f"{plot}: expected the name of a picture file, such as plan.png")
+    for wanted, leg in zip(requests, answers, strict=True):
+        if not leg.certified:
+            continue
+        file = plot if len(requests) == 1 else plot.with_stem(f"{plot.stem}-step{wanted.request_id}")
+        try:
+            made = make_plan(world, wanted)
+            save_plot(world, made, file, wanted.limits, wanted.radius, ("north", "east", "-altitude"))
+        except (OSError, ValueError) as error:
+            raise CompanionError(f"{file}: cannot draw the plan: {error}") from error
+        out.print(f"plot: {file}")
 
 
 def _print(name: str, answers: list[PlanReady]) -> None:

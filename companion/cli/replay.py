@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from companion.cli import show
-from companion.cli.fly import Operator
+from companion.cli.operator import Operator
 from logs.info import info
 from logs.reader import Recording
 from logs.replay_driver import Progress, replay

@@ -24,6 +24,8 @@ def rerun_log(path: Path, as_json: bool) -> int:
     wall = time.perf_counter() - wall
     comparison = done.comparison
     first = "" if comparison.first is None else comparison.first.text
+    if not first and recording.problem:
+        first = f"tick {done.ticks}: nothing can be compared from here on: {recording.problem}"
     ok = comparison.first is None and recording.complete
     result = {
         "ok": ok,
@@ -53,6 +55,4 @@ def rerun_log(path: Path, as_json: bool) -> int:
         for kind, count in comparison.kinds.items():
             table.add_row(show.plain(kind), str(count))
         screen.print(table)
-    if recording.problem:
-        screen.print(f"[bold red]the recording is not whole:[/] {show.plain(recording.problem)}", soft_wrap=True)
     return 0 if ok else DIFFERENT

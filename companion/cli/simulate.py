@@ -7,6 +7,7 @@ from pathlib import Path
 from rich.console import Console
 
 from companion.cli import show
+from companion.cli.operator import STOPPED, Operator
 from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import fly_lockstep
@@ -20,7 +21,7 @@ from logs.recorder import Recorder
 from planner import warm_up
 
 LIMIT_S = 3600.0
-"""Simulated time after which a flight that does not end is ended."""
+"""Simulated time, holds apart, after which a flight that does not end is ended."""
 
 
 def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) -> int:
@@ -35,15 +36,23 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
         warm_up()
     vehicle = build_vehicle(mission, seed)
     meter = FlightMeter(companion)
+    operator = Operator()
     with ExitStack() as stack:
+        stack.enter_context(operator.listening())
         recorder = None
         if record is not None:
             recorder = stack.enter_context(Recorder(record, threaded=False, **header(companion, data)))
         recording = RecordingTap(companion, recorder)
         taps: list[Tap] = [meter, recording, stack.enter_context(show.ProgressLine(companion, meter, out))]
         wall, cpu = time.perf_counter(), time.process_time()
-        end_us = fly_lockstep(companion, vehicle, LINK, planning, taps, limit_s=LIMIT_S)
+        limit_s = LIMIT_S + sum(step.hold.seconds for step in mission.steps if step.hold is not None)
+        end_us = fly_lockstep(
+            companion, vehicle, LINK, planning, taps, limit_s=limit_s, operator=operator, stop=operator.stop
+        )
         wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+    if not companion.over:
+        late = f"not over after {limit_s:g} s of simulated time"
+        companion.failure = STOPPED if operator.stop() else companion.failure or late
     verdict = judge(companion, meter)
     simulated_s, sha256 = end_us / 1e6, recording.outputs.hexdigest()
     result = {

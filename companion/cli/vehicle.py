@@ -3,10 +3,13 @@
 import math
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
+from companion.errors import CompanionError
 from companion.mission import Mission
 from fakevehicle.config import LinkConfig, VehicleConfig, zurich
 from fakevehicle.vehicle import Vehicle
@@ -27,8 +30,9 @@ def build_vehicle(mission: Mission, seed: int) -> Vehicle:
     return Vehicle(config)
 
 
-def start_vehicle(mission: Mission, url: str, seed: int, log: Path) -> subprocess.Popen[bytes]:
-    """The vehicle as a process of its own, calling `url`; what it prints goes to `log`."""
+@contextmanager
+def running_vehicle(mission: Mission, url: str, seed: int, log: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """The vehicle as a process of its own, calling `url`; what it prints goes to `log`. Ended at the end."""
     home, wind = zurich(), mission.wind
     place = f"{math.degrees(home.latitude):.7f},{math.degrees(home.longitude):.7f},{home.altitude:g}"
     command = [
@@ -36,18 +40,21 @@ def start_vehicle(mission: Mission, url: str, seed: int, log: Path) -> subproces
         *("--home", f"{place},{mission.vehicle.start.heading_deg:g}"),
         *("--wind", f"{wind.north:g},{wind.east:g},{wind.down:g}"),
     ]
-    with log.open("wb") as out:
+    try:
+        out = log.open("wb")
+    except OSError as error:
+        raise CompanionError(f"{log}: cannot be written: {error.strerror or error}") from error
+    with out:
         # A session of its own, so that Ctrl-C lands the flight instead of killing the vehicle under it.
-        return subprocess.Popen(
+        process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
         )
-
-
-def stop_vehicle(process: subprocess.Popen[bytes]) -> None:
-    """Ask it to end, and make it if it does not."""
-    process.terminate()
     try:
-        process.wait(timeout=5)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(timeout=5)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()

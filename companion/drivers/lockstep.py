@@ -30,8 +30,9 @@ def fly_lockstep(
     *,
     limit_s: float,
     operator: Callable[[int], OperatorCommand | None] = lambda now_us: None,
+    stop: Callable[[], bool] = lambda: False,
 ) -> int:
-    """Fly until the companion is done or `limit_s` of simulated time have passed.
+    """Fly until the companion is done, `limit_s` of simulated time have passed, or `stop` says so.
 
     Datagrams take one tick of the receiver to arrive, in both directions; nothing is lost.
 
@@ -39,6 +40,7 @@ def fly_lockstep(
     ----------
     vehicle_link : the vehicle's name for its link to the companion.
     operator : asked once a tick for what the person at the keyboard wants.
+    stop : asked once a tick; True ends the flight as it is.
 
     Returns
     -------
@@ -48,7 +50,7 @@ def fly_lockstep(
         raise ValueError(f"vehicle tick {vehicle.TICK_US} us does not divide the companion's {companion.TICK_US} us")
     now_us, index = 0, 0
     to_vehicle: list[Datagram] = []
-    while not companion.over and now_us < limit_s * 1e6:
+    while not companion.over and now_us < limit_s * 1e6 and not stop():
         inputs: list[tuple[int, Input]] = []
         for _ in range(companion.TICK_US // vehicle.TICK_US):
             now_us += vehicle.TICK_US

@@ -55,7 +55,7 @@ def test_nothing_is_lost_between_the_sockets_and_the_recording(demo):
                 assert reader.get_summary().schemas[channel.schema_id].data
         assert sum(1 for _ in reader.iter_decoded_messages(["/mavlink/1/1/LOCAL_POSITION_NED"])) > 500
     assert counts["rx"] == int(sockets["autopilot.rx_datagrams"])
-    assert counts["tx"] == int(sockets["autopilot.tx_datagrams"])
+    assert counts["tx"] == int(sockets["autopilot.tx_datagrams"]) == int(sockets["autopilot.handed"])
 
 
 def test_the_recording_of_real_sockets_and_real_jitter_runs_again_bit_for_bit(demo):
