@@ -63,7 +63,7 @@ class Command:
 
     def message(self, target_system: int) -> mavlink.MAVLink_command_long_message:
         values = (*self.parameters, *[0.0] * (7 - len(self.parameters)))
-        confirmation = min(self.sent - 1, 255)
+        confirmation = min(max(self.sent - 1, 0), 255)
         return mavlink.MAVLink_command_long_message(target_system, 1, self.command, confirmation, *values)
 
     def failure(self) -> str:

@@ -387,12 +387,11 @@ class Companion:
     # ---- 4. streams ---------------------------------------------------------------------------------------------
 
     def _stream(self, now_us: int, out: list[Output]) -> None:
-        if now_us >= self._heartbeat_due_us:
+        if self._may_speak and now_us >= self._heartbeat_due_us:
             self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
-            if self._may_speak:
-                beat = self._packet(self._heartbeat())
-                out.append(beat)
-                out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
+            beat = self._packet(self._heartbeat())
+            out.append(beat)
+            out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if self.phase not in STREAMING or self._was_landing:
             return
         reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned

@@ -116,9 +116,7 @@ class StartPose(_Model):
 
 class VehicleModel(_Model):
     start: StartPose
-    radius: Annotated[float, Field(gt=0, le=100)] = (
-        0.35  # [m] half the tip-to-tip diagonal of an X500: 0.5 m wheelbase, 10 inch propellers
-    )
+    radius: Annotated[float, Field(gt=0, le=100)] = 0.35  # [m] half the tip-to-tip diagonal of an X500
 
 
 class LimitsModel(_Model):
@@ -128,9 +126,7 @@ class LimitsModel(_Model):
     acceleration: Annotated[float, Field(ge=0.01, le=1000)] = 6.0  # [m/s^2]
     jerk: Annotated[float, Field(ge=0.01, le=1e5)] = 60.0  # [m/s^3]
     climb: Annotated[float, Field(ge=0.3, le=20)] = 1.0  # [m/s] of the takeoff; slower is not seen as one (PX4 disarms)
-    clearance: Annotated[float, Field(ge=0, le=100)] = (
-        0.4  # [m] kept by the plan between the vehicle's hull and every obstacle
-    )
+    clearance: Annotated[float, Field(ge=0, le=100)] = 0.4  # [m] kept by plans between hull and obstacles
 
 
 class Takeoff(_Model):

@@ -1,5 +1,6 @@
 """Whole flights in memory: the real companion, planner and vehicle, no socket, no clock."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -143,3 +144,59 @@ def test_a_pilot_who_takes_the_mode_is_not_fought(fly):
     assert flight.companion.phase is Phase.HANDED_OVER
     after = [t for t, _ in sent(flight, mavlink.MAVLINK_MSG_ID_COMMAND_LONG) if t > 12.0]
     assert not after
+
+
+class Drifting:
+    """A vehicle whose position begins to run away at 8 s."""
+
+    def __init__(self, vehicle):
+        self.vehicle, self.TICK_US = vehicle, vehicle.TICK_US
+        self.mav = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+
+    def step(self, now_us, inputs):
+        out = self.vehicle.step(now_us, inputs)
+        for k, datagram in enumerate(out):
+            if now_us > 8_000_000 and datagram.data[7:10] == bytes([32, 0, 0]):
+                m = mavlink.MAVLink(None).decode(bytearray(datagram.data))
+                m.x += 1e-6 * (now_us - 8_000_000)
+                out[k] = Datagram(datagram.link, bytes(m.pack(self.mav)), datagram.peer)
+        return out
+
+
+def test_a_vehicle_that_strays_from_its_reference_is_landed_with_the_distance_told(fly):
+    flight = fly(between=Drifting)
+    assert flight.companion.phase is Phase.DONE
+    assert not flight.verdict.ok
+    assert re.search(r"the vehicle is [23]\.\d m from its reference for 1 s: landing", flight.verdict.failure)
+
+
+class Deaf:
+    """A vehicle that tells no position after 8 s."""
+
+    def __init__(self, vehicle):
+        self.vehicle, self.TICK_US = vehicle, vehicle.TICK_US
+
+    def step(self, now_us, inputs):
+        out = self.vehicle.step(now_us, inputs)
+        return [d for d in out if now_us < 8_000_000 or d.data[7:10] != bytes([32, 0, 0])]
+
+
+def test_a_flight_without_position_lands(fly):
+    flight = fly(between=Deaf)
+    assert flight.companion.phase is Phase.DONE
+    assert flight.verdict.failure == "no position from the vehicle for 1 s: landing"
+
+
+def test_land_asked_while_arming_disarms(fly):
+    flight = fly(operator=lambda companion, now_us: OperatorCommand.LAND if companion.phase is Phase.ARMING else None)
+    assert flight.companion.phase is Phase.FAILED
+    mav = mavlink.MAVLink(None)
+    last = mav.decode(bytearray(sent(flight, mavlink.MAVLINK_MSG_ID_COMMAND_LONG)[-1][1].raw))
+    assert (last.command, last.param1) == (mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0)
+
+
+def test_a_mission_that_begins_under_a_roof_is_refused_on_the_ground(fly):
+    roof = "    - box: {north: [1, 3], east: [1, 3], altitude: [1.2, 1.4]}\n    - cyl"
+    flight = fly(HOP.replace("    - cyl", roof))
+    assert flight.companion.phase is Phase.FAILED
+    assert "the climb at north 2, east 2, altitude 1.5" in flight.verdict.failure
