@@ -8,7 +8,8 @@ One tick, in this order:
 4. stream: HEARTBEAT at 1 Hz, a setpoint every tick from PLANNING on.
 
 No clock, no socket, no randomness, no logging: the same inputs at the same `now_us` give the same outputs, which makes
-a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing.
+a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing. One file
+on purpose: the order of a tick is what one wants to see whole.
 """
 
 import math
