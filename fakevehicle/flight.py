@@ -44,20 +44,25 @@ GPS_DELAY_TICKS = 28
 BLOCK = 256
 """Ticks whose random draws are made at once."""
 
-# The filter believes its sensors to be a little worse than the simulated ones are (NIS a little below its mean). The
-# simulated noises are a good receiver's (u-blox M9N: 0.05 m/s) and a MEMS IMU's with some vibration; PX4's own defaults
-# (0.015 rad/s, 0.35 m/s^2, 0.5 m, 0.3 m/s) allow for much worse and would let the position wander by twice as much.
+# The filter believes its sensors to be a little worse than the simulated ones are (NIS a little below its mean) and
+# their biases to wander a little faster: in a tick 8.0e-7 rad/s where SIM_GYR_WALK gives 6.3e-7, and 8.0e-6 m/s^2 where
+# SIM_ACC_WALK gives 6.3e-6 (were it the other way round, long flights would make it ever more certain and ever more
+# wrong). The simulated noises are a good receiver's (u-blox M9N: 0.05 m/s) and a MEMS IMU's with some vibration; PX4's
+# own defaults (0.015 rad/s, 0.35 m/s^2, 0.5 m, 0.3 m/s) allow for much worse and would let the position wander by twice
+# as much.
 PARAMETERS: tuple[Parameter, ...] = (
     *gains.PARAMETERS,
     Parameter("EKF2_GYR_NOISE", 0.004, 1e-4, 0.1, "rad/s", "estimator: gyro noise"),
     Parameter("EKF2_ACC_NOISE", 0.09, 0.01, 1.0, "m/s^2", "estimator: accelerometer noise"),
-    Parameter("EKF2_GYR_B_NOISE", 1e-4, 0, 0.01, "rad/s^2", "estimator: gyro bias walk"),
-    Parameter("EKF2_ACC_B_NOISE", 5e-4, 0, 0.01, "m/s^3", "estimator: accelerometer bias walk"),
+    Parameter("EKF2_GYR_B_NOISE", 2e-4, 0, 0.01, "rad/s^2", "estimator: gyro bias walk"),
+    Parameter("EKF2_ACC_B_NOISE", 2e-3, 0, 0.01, "m/s^3", "estimator: accelerometer bias walk"),
     Parameter("EKF2_GBIAS_INIT", 0.01, 0, 0.2, "rad/s", "estimator: gyro bias at the start"),
     Parameter("EKF2_ABIAS_INIT", 0.1, 0, 0.5, "m/s^2", "estimator: accelerometer bias at the start"),
     Parameter("EKF2_GPS_P_NOISE", 0.4, 0.01, 10, "m", "estimator: GPS position noise"),
     Parameter("EKF2_GPS_V_NOISE", 0.06, 0.01, 5, "m/s", "estimator: GPS velocity noise"),
     Parameter("EKF2_BARO_NOISE", 0.25, 0.01, 15, "m", "estimator: barometer noise"),
+    Parameter("FT_EKF_BARO_DRFT", 0.1, 0, 5, "m", "estimator: drift of the barometer in the long run"),
+    Parameter("FT_EKF_BARO_TAU", 300.0, 1, 10000, "s", "estimator: time in which the barometer's drift forgets"),
     Parameter("EKF2_MAG_NOISE", 0.04, 0.001, 1, "gauss", "estimator: magnetometer noise"),
     Parameter("EKF2_GPS_DELAY", 110.0, 4, 300, "ms", "estimator: age of a fix when it arrives, read at the start"),
     Parameter("EKF2_REQ_GPS_H", 4.0, 0, 30, "s", "estimator: GPS must be good for this long before position is valid"),
@@ -117,7 +122,7 @@ class FlightStack:
         self._work: FloatArray = np.zeros((6, STATE))
         c, s = math.cos(heading), math.sin(heading)
         self._anchor: FloatArray = np.array(airframe.contact_points_b) @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-        self._wind: FloatArray = np.zeros((4, 3))
+        self._wind: FloatArray = np.zeros((3, 3))
         self._wind[0] = self._wind[2] = wind_n
         self._control = ControlTables(airframe, parameters)
         self._control.rest(heading)
@@ -179,6 +184,7 @@ class FlightStack:
             self._work,
             self._anchor,
             self._wind,
+            self._turbulence,
             self._body,
             control.gains,
             control.status,
@@ -307,7 +313,7 @@ class FlightStack:
         self._gps_receiver.velocity_noise = float(p["SIM_GPS_V_NOISE"])
         self._barometer.noise, self._barometer.drift = float(p["SIM_BARO_NOISE"]), float(p["SIM_BARO_DRIFT"])
         self._magnetometer.noise = float(p["SIM_MAG_NOISE"])
-        self._wind[3, 0] = p["SIM_WIND_GUST"]
+        self._turbulence = float(p["SIM_WIND_GUST"])
 
     def _estimator_config(self) -> EstimatorConfig:
         p = self._parameters
@@ -321,6 +327,8 @@ class FlightStack:
             gps_position=float(p["EKF2_GPS_P_NOISE"]),
             gps_velocity=float(p["EKF2_GPS_V_NOISE"]),
             baro=float(p["EKF2_BARO_NOISE"]),
+            baro_drift=float(p["FT_EKF_BARO_DRFT"]),
+            baro_drift_time=float(p["FT_EKF_BARO_TAU"]),
             mag=float(p["EKF2_MAG_NOISE"]),
             gps_delay_us=round(1000 * p["EKF2_GPS_DELAY"]),
             gps_settling_us=round(1e6 * p["EKF2_REQ_GPS_H"]),

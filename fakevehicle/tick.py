@@ -25,7 +25,23 @@ DRAWS = 4 * 6 + 6 + 3
 
 @kernel
 def advance(
-    motors, setpoint, nav, bias, noise, x, work, anchor, wind, body_, gains_, status_, bank, coefficients, states, imu_
+    motors,
+    setpoint,
+    nav,
+    bias,
+    noise,
+    x,
+    work,
+    anchor,
+    wind,
+    turbulence,
+    body_,
+    gains_,
+    status_,
+    bank,
+    coefficients,
+    states,
+    imu_,
 ):
     """Advance everything by one tick.
 
@@ -36,7 +52,7 @@ def advance(
     bias : (3,) gyro bias the estimator believes in [rad/s].
     noise : (DRAWS,) standard normal draws.
     x : (17,) state, in place.  work : (6, 17) scratch.  anchor : (4, 3) feet.
-    wind : (4, 3): steady wind, gust, their sum, and (turbulence W20, truth's newest acceleration norm, unused).
+    wind : (3, 3) steady wind, gust, their sum [m/s].  turbulence : W20 [m/s], 0 is calm.
     body_, gains_, status_, imu_ : (1,) of `airframe.BODY`, `cascade.GAINS`, `cascade.LOOPS`, `imu.IMU`.
     bank, coefficients, states : of the `LoopBank`.
 
@@ -71,10 +87,10 @@ def advance(
             touches = settle(x, anchor, body)
         integrate_imu(before, x, body.gravity, DT, imu, noise, 6 * k)
     walk_biases(imu, noise, 6 * SUBSTEPS)
-    if wind[3, 0] > 0.0:
+    if turbulence > 0.0:
         ax, ay, az = x[3] - wind[0, 0], x[4] - wind[0, 1], x[5] - wind[0, 2]
         airspeed = math.sqrt(ax * ax + ay * ay + az * az)
-        gust_step(wind[1], wind[3, 0], body.ground - x[2], airspeed, SUBSTEPS * DT, noise[6 * SUBSTEPS + 6 :])
+        gust_step(wind[1], turbulence, body.ground - x[2], airspeed, SUBSTEPS * DT, noise[6 * SUBSTEPS + 6 :])
     else:
         for i in range(3):
             wind[1, i] = 0.0

@@ -5,6 +5,14 @@ behind the newest IMU sample: IMU samples wait in a ring, others wait until the 
 An output predictor (`strapdown.predict_output`) carries the result to now, at the IMU's rate (PX4's EKF2 has the same
 structure). Before that, on the ground and at rest, one second of samples gives tilt (accelerometer), yaw (magnetometer)
 and the barometer's zero, and the first fix gives the origin.
+
+Height. The barometer alone gives it, so what its zero was wrong by at the start and what it has drifted since go into
+the height whole, and no other sensor can tell. The filter's own variance knows white noise only; the two others are
+considered, not estimated (Schmidt's consider states, in the limit of a drift much slower than the filter follows):
+
+    var(z) = P_zz + R_baro / n + sigma_d^2 (1 - exp(-2 t / tau_d)),      n samples in the zero, t since then
+
+is what `Estimate` reports. Gates need neither: the innovation compares two heights that share both errors.
 """
 
 import math
@@ -38,6 +46,7 @@ class EstimatorConfig:
     gyro_walk, accel_walk : of the biases' rates [rad/s^2], [m/s^3].
     gyro_bias, accel_bias : of the biases at the start [rad/s], [m/s^2].
     gps_position, gps_velocity, baro, mag : [m], [m/s], [m], [gauss].
+    baro_drift, baro_drift_time : the barometer's Gauss-Markov drift in the long run [m] and its time constant [s].
     gps_delay_us : age of a fix when it arrives [us].
     gps_settling_us : position is not called valid before GPS has been accepted for this long [us].
     gate_probability : a true measurement passes its gate with this probability.
@@ -53,6 +62,8 @@ class EstimatorConfig:
     gps_position: float
     gps_velocity: float
     baro: float
+    baro_drift: float
+    baro_drift_time: float
     mag: float
     gps_delay_us: int
     gps_settling_us: int
@@ -97,6 +108,8 @@ class Estimator:
         self._accepted_us: dict[str, int] = {}
         self._since_us: dict[str, int] = {}
         self._height_zero = 0.0
+        self._zero_samples = 1
+        self._zero_us = 0
         self._still: list[FloatArray] = []
         self._still_baro: list[float] = []
         self._still_mag: list[FloatArray] = []
@@ -219,16 +232,29 @@ class Estimator:
         self._ring[:] = self.out[:10]
         self._imu[:] = newest
         self._height_zero = float(np.mean(self._still_baro))
+        self._zero_samples, self._zero_us = len(self._still_baro), self._times[-1]
 
     def _fresh(self, sensor: str, now_us: int) -> bool:
         accepted = self._accepted_us.get(sensor)
         return accepted is not None and now_us - accepted <= STALE_US
 
+    def _height_variance(self, now_us: int) -> float:
+        """What the barometer's zero and drift add to the variance of the height [m^2]."""
+        config = self._config
+        age = (now_us - self._zero_us) * 1e-6
+        drifted = config.baro_drift**2 * -math.expm1(-2.0 * age / config.baro_drift_time)
+        return config.baro**2 / self._zero_samples + drifted
+
     def estimate(self, now_us: int) -> Estimate:
-        """What is believed at the newest IMU sample; the arrays are copies."""
+        """What is believed at the newest IMU sample; the arrays are copies.
+
+        The covariance is the filter's, with the barometer's zero and drift added to the height's variance.
+        """
         out, aligned = self.out, self.filter is not None
         settled = now_us - self._since_us.get("gps_position", now_us) >= self._config.gps_settling_us
         P = self.filter.P.copy() if self.filter is not None else np.diag(np.full(15, 1e6))
+        if aligned:
+            P[8, 8] += self._height_variance(now_us)
         sigma = np.sqrt(np.diagonal(P))
         return Estimate(
             now_us=now_us,

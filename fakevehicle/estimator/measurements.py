@@ -53,7 +53,7 @@ def gps_velocity(nominal: FloatArray, velocity_n: FloatArray, noise: float) -> M
 
 
 def baro(nominal: FloatArray, height: float, noise: float) -> Measurement:
-    """Height above where the estimator was aligned [m]; z = -height."""
+    """Height above where the estimator was aligned [m]; z = -height. R is white noise; for drift see `horizon`."""
     return Measurement("baro", np.array([-height - nominal[2]]), _H_DOWN, np.array([[noise**2]]))
 
 

@@ -1,6 +1,7 @@
 """The error-state filter: its algebra against numerical derivatives, its belief against truth."""
 
 import math
+from collections import deque
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from fakevehicle.estimator.eskf import ErrorStateFilter
 from fakevehicle.estimator.strapdown import normalised_innovation_squared, propagate
 from fakevehicle.flight import PARAMETERS, FlightStack
 from fakevehicle.params import ParameterSet
+from fakevehicle.sensors.barometer import Barometer
 from fakevehicle.sensors.magnetometer import field_n
 from fakevehicle.vocabulary import FloatArray, Geodetic, Setpoint
 
@@ -100,6 +102,14 @@ def test_nis_is_the_quadratic_form_of_the_innovation() -> None:
     assert normalised_innovation_squared(P, H, R, y) == pytest.approx(direct, rel=1e-10)
 
 
+@pytest.mark.parametrize("seed", [6, 7, 8])
+def test_a_magnetometer_that_is_right_surprises_nobody(seed: int) -> None:
+    state = some_state(seed)
+    w, x, y, z = state[6:10]
+    seen = Rotation.from_quat([x, y, z, w]).inv().apply(field_n())
+    np.testing.assert_allclose(measurements.magnetometer(state, seen, field_n(), 0.05).innovation, 0.0, atol=1e-12)
+
+
 def test_an_update_moves_the_state_as_the_gain_says_and_keeps_p_symmetric() -> None:
     nominal = some_state(4)
     f = ErrorStateFilter(nominal, np.full(15, 0.3), G)
@@ -182,3 +192,77 @@ def test_the_filter_believes_itself_as_much_as_it_should_on_the_ground_and_in_fl
     a, b, c, d = estimate.q_nb
     apart = Rotation.from_quat([x, y, z, w]).inv() * Rotation.from_quat([b, c, d, a])
     assert float(apart.magnitude()) < math.radians(2.0)
+
+
+def test_the_height_s_variance_grows_as_an_unaided_barometer_s_error_does() -> None:
+    """The judge is the barometer itself, many times: zero taken over 25 samples, drift watched without noise."""
+    stack = FlightStack(
+        airframe=load_airframe("x500"),
+        parameters=ParameterSet(PARAMETERS, MATCHED | {"SIM_BARO_DRIFT": 0.1}),
+        home=HOME,
+        heading=0.0,
+        wind_n=np.zeros(3),
+        seed=1,
+    )
+    for k in range(1, 501):
+        stack.tick(k * 4000, None, False)
+    filter_ = stack.estimator.filter
+    assert filter_ is not None
+    for age in (20, 120, 600):
+        added = stack.estimator.estimate(1_000_000 + age * 1_000_000).covariance[8, 8] - filter_.P[8, 8]
+        wrong = []
+        for seed in range(600):
+            barometer = Barometer(np.random.default_rng(seed), 0.2, 0.1)
+            zero = np.mean([barometer.measure(0, 0.0, 0.04).altitude for _ in range(25)])
+            barometer.noise = 0.0
+            wrong.append(barometer.measure(0, 0.0, float(age)).altitude - zero)
+        assert math.sqrt(added) == pytest.approx(float(np.std(wrong)), rel=0.08)
+
+
+@pytest.mark.slow
+def test_a_long_flight_makes_the_filter_neither_surer_than_it_is_right_nor_more_wrong() -> None:
+    """NEES of all fifteen states with the shipped parameters: the reported covariance, at the time of the horizon."""
+    nees, heights = [], []
+    for seed in (21, 22, 23):
+        stack = FlightStack(
+            airframe=load_airframe("x500"),
+            parameters=ParameterSet(PARAMETERS),
+            home=HOME,
+            heading=0.5,
+            wind_n=np.array([2.0, -1.0, 0.0]),
+            seed=seed,
+        )
+        past: deque[FloatArray] = deque(maxlen=29)  # truth at the horizon is 28 ticks old
+        apart: FloatArray | None = None
+        for k in range(1, round(260.0 / 0.004) + 1):
+            t = k * 0.004
+            phase = max(t - 14.0, 0.0)
+            north, east = 4.0 * math.sin(0.5 * phase), 2.0 * math.sin(1.0 * phase)
+            setpoint = Setpoint(position_n=np.array([north, east, -3.0]), yaw=0.5 + 0.5 * math.sin(0.4 * phase))
+            stack.tick(k * 4000, setpoint if t > 7.0 else None, t > 7.0)
+            past.append(stack._x.copy())
+            if t < 20.0 or k % 250:
+                continue
+            truth, estimator = past[0], stack.estimator
+            assert estimator.filter is not None
+            assert estimator.origin is not None
+            if apart is None:  # from home to the first fix: the ellipsoid's radii at Zurich's latitude, by hand
+                apart = np.array(
+                    [
+                        (estimator.origin.latitude - HOME.latitude) * (6_370_064.0 + 488.0),
+                        (estimator.origin.longitude - HOME.longitude) * (6_389_735.0 + 488.0) * math.cos(HOME.latitude),
+                        0.0,
+                    ]
+                )
+            biases = np.concatenate([stack._imu["gyro_bias"][0], stack._imu["accel_bias"][0]])
+            actual = np.concatenate([truth[0:3] - apart, truth[3:6], truth[6:10], biases])
+            error = between(estimator.filter.nominal, actual)
+            covariance = stack.estimate.covariance
+            nees.append((t, float(error @ np.linalg.solve(covariance, error))))
+            heights.append(float(error[8] ** 2 / covariance[8, 8]))
+    late = [value for t, value in nees if t > 200.0]
+    early = [value for t, value in nees if t < 80.0]
+    # 15 if every noise were matched; believing each 1.15 to 1.3 times as large gives about 10
+    assert 5.0 < float(np.mean(early)) < 13.0
+    assert 5.0 < float(np.mean(late)) < 13.0  # 15.2 when the biases were believed to wander slower than they do
+    assert 0.3 < float(np.mean(heights)) < 1.7
