@@ -46,7 +46,7 @@ class AskTell(ABC):
     initial : (m, n_dim) or None    first candidates, clipped to the bounds; the rest are uniform in them.
     population : int                candidates, at least 4.
     budget : int                    evaluations; the last iteration is the last one that fits.
-    step : float                    first length of the gradient step, in units of the candidates; used if told gradients.
+    step : float                    first length of the gradient step, in units of the candidates.
 
     Raises
     ------

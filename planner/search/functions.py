@@ -45,8 +45,8 @@ class Benchmark:
 
     def offset(self, dimension: int) -> FloatArray:
         """o (d,), by how much the minimum is moved."""
-        signs: FloatArray = 1.0 - 2.0 * (np.arange(dimension) % 2)
-        return self.shift * (self.upper - self.lower) * signs
+        signs = np.where(np.arange(dimension) % 2 == 0, 1.0, -1.0)
+        return np.asarray(self.shift * (self.upper - self.lower) * signs, dtype=np.float64)
 
     def bounds(self, dimension: int) -> list[tuple[float, float]]:
         """The domain, as `minimize` takes it."""
