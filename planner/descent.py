@@ -19,7 +19,9 @@ BLOCK = 10
 MEMORY = 6
 ARMIJO = 1e-4
 LONGEST = 0.7
-"""A step moves no control point coordinate farther than this [m]: curves slide around obstacles, they do not jump."""
+"""A step moves no control point coordinate farther than this [m], unless told otherwise: curves slide around obstacles,
+they do not jump.
+"""
 
 
 @kernel
@@ -33,7 +35,9 @@ def iterate(p: Population, problem: Problem, first: int, last: int, uniforms: Fl
 
 
 @kernel
-def lbfgs(x: FloatArray, metric: FloatArray, problem: Problem, most: int, tolerance: float) -> tuple[float, int]:
+def lbfgs(
+    x: FloatArray, metric: FloatArray, problem: Problem, most: int, tolerance: float, longest: float
+) -> tuple[float, int]:
     """Descend from x (3 f,), in place. (cost [m], evaluations made), at most about `most` of them.
 
     `metric` (f, f) is the inverse of the quadratic form, the same for each coordinate. Stops when two steps in a row
@@ -73,7 +77,7 @@ def lbfgs(x: FloatArray, metric: FloatArray, problem: Problem, most: int, tolera
                 break
             count = 0  # the memory has gone bad: start again from the metric
             continue
-        step = min(1.0, LONGEST / largest)
+        step = min(1.0, longest / largest)
         while True:
             for k in range(n):
                 x_new[k] = x[k] - step * p[k]
@@ -107,9 +111,14 @@ def search(optimiser: Haoaroa, cost: SplineCost) -> None:
 
 
 def polish(
-    cost: SplineCost, x: FloatArray, factor: float = 1.0, most: int = 120, tolerance: float = 1e-4
+    cost: SplineCost,
+    x: FloatArray,
+    factor: float = 1.0,
+    most: int = 120,
+    tolerance: float = 1e-4,
+    longest: float = LONGEST,
 ) -> tuple[FloatArray, int]:
     """L-BFGS from x (3 f,), obstacles weighed `factor` times as much: the better point and the evaluations it took."""
     better = np.array(x, dtype=np.float64)
-    _, evaluations = lbfgs(better, cost.inverse_energy, cost.stiffened(factor), most, tolerance)
+    _, evaluations = lbfgs(better, cost.inverse_energy, cost.stiffened(factor), most, tolerance, longest)
     return better, evaluations

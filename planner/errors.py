@@ -12,6 +12,7 @@ Every number in a message is also an attribute. All of them survive pickling, si
 the constructor's arguments are exactly `Exception.args`, and the sentence is built when it is read.
 """
 
+import math
 from typing import ClassVar
 
 Point = tuple[float, float, float]
@@ -122,15 +123,23 @@ class NoPathFound(PlannerError):
     """The search spent its budget and nothing it found could be proved clear.
 
     `shortfall` [m] is by how much the best curve found misses the radius; `tried` counts the curves that were polished
-    and put to the proof. This is "gave up", not "proved unreachable".
+    and put to the proof. `way` [m] is the length of the way that the search graph shows, inf when its cells, `cell` [m]
+    wide at the finest, show none; a slit narrower than a cell can hide between them. This is "gave up", not "proved
+    unreachable".
     """
 
-    def __init__(self, tried: int, evaluations: int, shortfall: float, radius: float) -> None:
-        super().__init__(tried, evaluations, shortfall, radius)
+    def __init__(self, tried: int, evaluations: int, shortfall: float, radius: float, way: float, cell: float) -> None:
+        super().__init__(tried, evaluations, shortfall, radius, way, cell)
         self.tried, self.evaluations, self.shortfall, self.radius = tried, evaluations, shortfall, radius
+        self.way, self.cell = way, cell
 
     def __str__(self) -> str:
+        cells = f"its cells of {self.cell:.3g} m"
+        if math.isinf(self.way):
+            graph = f"the search graph shows no way through {cells}"
+        else:
+            graph = f"the search graph's way of {self.way:.1f} m through {cells} could not be followed"
         return (
             f"no path found: {self.tried} curves polished with {self.evaluations} evaluations, none keeps "
-            f"{self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}"
+            f"{self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}; {graph}"
         )

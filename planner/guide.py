@@ -1,12 +1,14 @@
 """The way round, when bows do not find it: A* on a coarse grid of the free space, then pulled taut.
 
-The grid is the map less the radius, its cells at most CELLS wide; a cell is free when its centre keeps the radius.
-Edges to all 26 neighbours, their middle checked too. The result is a guess for the spline, never a proof: what it
-leads to is proved or refused like any other curve. Hart, Nilsson & Raphael 1968; the heuristic is the straight
-distance.
+The grid is the map less the radius. An edge to one of the 26 neighbours is free when all of it keeps the radius and a
+little more, proved with the 1-Lipschitz distance: no solid is too thin to be seen. Edges nearer than BUFFER beyond the
+radius count up to CAUTION times longer, so that the way leads through the middle of what is narrow. What it is pulled
+taut by keeps half of that buffer. The result is a guess for the spline all the same: what it leads to is proved or
+refused like any other curve. Hart, Nilsson & Raphael 1968; the heuristic is the straight distance.
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,15 +17,36 @@ from planner.distance import nearest_solid
 from planner.jit import kernel
 from planner.worlds import World
 
-CELLS = (0.5, 0.25)
-"""Cell widths tried in turn [m]."""
-MOST_CELLS = 2_000_000
-_SLACK = 1.02  # on the radius: a guide that just touches leaves the spline no room
+CELLS = (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
+"""Cell widths tried in turn [m]: those that make FEWEST_CELLS to MOST_CELLS of a map; a larger map gets wider ones."""
+FEWEST_CELLS, MOST_CELLS = 5_000, 2_000_000
+SLACK = 0.01
+"""Beyond the radius, what a guide keeps [m]: one that just touches leaves the spline no room."""
+BUFFER, CAUTION = 0.3, 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Guide:
+    """What the search graph says: a polyline from start to goal, and by what cells."""
+
+    path: FloatArray  # (m, 3) [m]; m = 0 when the cells show no way
+    width: float  # of the finest cells looked at [m]
+
+    @property
+    def length(self) -> float:
+        """[m], inf when there is no way."""
+        if not len(self.path):
+            return math.inf
+        return float(np.linalg.norm(np.diff(self.path, axis=0), axis=1).sum())
 
 
 @kernel
 def _free(solids: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bool:
-    """Whether the segment from a to b keeps the radius: sphere marching with the 1-Lipschitz distance."""
+    """Whether the segment from a to b keeps the radius less SLACK / 2.
+
+    Sphere marching: the distance is 1-Lipschitz, so from a point that keeps the radius a step of d - radius + SLACK / 2
+    meets nothing nearer than that. True is a proof, False means that a point nearer than the radius was met.
+    """
     length = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
     t = 0.0
     while True:
@@ -33,7 +56,7 @@ def _free(solids: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bo
             return False
         if t >= length:
             return True
-        t = min(t + max(d - radius, 0.01), length)
+        t = min(t + d - radius + 0.5 * SLACK, length)
 
 
 @kernel
@@ -47,11 +70,13 @@ def astar(
 ) -> FloatArray:
     """Cells' centres (m, 3) from the cell of ends[0] to that of ends[1]; empty when they are not connected.
 
-    origin, step, shape (3,): first centre, spacing, number of cells (whole numbers).
+    origin, step, shape (3,): first centre, spacing, number of cells (whole numbers). The first and the last cell stand
+    for the ends themselves: edges from and to them are judged from there, and keep what the end keeps if that is less.
     """
     nx, ny, nz = int(shape[0]), int(shape[1]), int(shape[2])
     total = nx * ny * nz
-    blocked = np.full(total, -1, dtype=np.int8)  # -1 not looked at yet
+    distance = np.full(total, np.nan)  # not looked at yet
+    here, there = np.empty(3), np.empty(3)
     cost = np.full(total, np.inf)
     parent = np.full(total, -1, dtype=np.int64)
     index = np.empty((2, 3), dtype=np.int64)
@@ -78,6 +103,10 @@ def astar(
         if node == target:
             break
         ix, iy, iz = node // (ny * nz), (node // nz) % ny, node % nz
+        for a in range(3):
+            here[a] = ends[0, a] if node == begin else origin[a] + (ix, iy, iz)[a] * step[a]
+        if math.isnan(distance[node]):
+            distance[node], _ = nearest_solid(solids, here[0], here[1], here[2])
         h0 = math.sqrt(
             ((ix - index[1, 0]) * step[0]) ** 2
             + ((iy - index[1, 1]) * step[1]) ** 2
@@ -93,18 +122,21 @@ def astar(
                         continue
                     other = (jx * ny + jy) * nz + jz
                     way = math.sqrt((dx * step[0]) ** 2 + (dy * step[1]) ** 2 + (dz * step[2]) ** 2)
-                    if cost[node] + way >= cost[other] or blocked[other] == 1:
+                    if cost[node] + way >= cost[other]:
                         continue
-                    px, py, pz = origin[0] + jx * step[0], origin[1] + jy * step[1], origin[2] + jz * step[2]
-                    if blocked[other] == -1:
-                        d, _ = nearest_solid(solids, px, py, pz)
-                        blocked[other] = 1 if d < radius and other != target else 0
-                        if blocked[other] == 1:
-                            continue
-                    d, _ = nearest_solid(
-                        solids, px - 0.5 * dx * step[0], py - 0.5 * dy * step[1], pz - 0.5 * dz * step[2]
-                    )
-                    if d < radius and node != begin and other != target:
+                    for a in range(3):
+                        there[a] = ends[1, a] if other == target else origin[a] + (jx, jy, jz)[a] * step[a]
+                    if math.isnan(distance[other]):
+                        distance[other], _ = nearest_solid(solids, there[0], there[1], there[2])
+                    near = min(distance[node], distance[other])
+                    keep = min(radius, near - 1e-9) if node == begin or other == target else radius
+                    if near < keep:
+                        continue
+                    short = distance[node] + distance[other] < 2.0 * radius + way or node == begin or other == target
+                    way *= 1.0 + (CAUTION - 1.0) * max(0.0, 1.0 - (near - radius) / BUFFER)
+                    if cost[node] + way >= cost[other]:
+                        continue
+                    if short and not _free(solids, keep, here, there):
                         continue
                     cost[other], parent[other] = cost[node] + way, node
                     key = cost[other] + math.sqrt(
@@ -151,17 +183,37 @@ def pull_taut(solids: FloatArray, radius: float, path: FloatArray) -> FloatArray
     return kept[:count].copy()
 
 
-def guide(world: World, start: FloatArray, goal: FloatArray, radius: float) -> FloatArray | None:
-    """A polyline (m, 3) [m] from start to goal through free cells, or None when the grids show no way."""
+def widths(extent: FloatArray) -> list[float]:
+    """The cell widths for a map of that extent (3,), coarsest first and at least one, whatever its size [m]."""
+    fitting = [width for width in CELLS if FEWEST_CELLS <= _cells(extent, width) <= MOST_CELLS]
+    if not fitting and _cells(extent, CELLS[-1]) < FEWEST_CELLS:
+        return [CELLS[-1]]
+    wider = CELLS[0]
+    while not fitting:
+        wider *= 1.25
+        if _cells(extent, wider) <= MOST_CELLS:
+            fitting.append(wider)
+    return fitting
+
+
+def _cells(extent: FloatArray, width: float) -> float:
+    return float(np.prod(np.maximum(np.ceil(extent / width), 1.0) + 1.0))
+
+
+def guide(world: World, start: FloatArray, goal: FloatArray, radius: float) -> Guide:
+    """The way that the coarsest grid with one shows, pulled taut.
+
+    Parameters
+    ----------
+    start, goal : (3,)    in the map, keeping the radius [m].
+    """
     low, high = world.walls[0] + radius, world.walls[1] - radius
     ends = np.array([start, goal])
-    for width in CELLS:
+    for width in widths(high - low):
         shape = np.maximum(np.ceil((high - low) / width), 1.0) + 1.0
-        if float(np.prod(shape)) > MOST_CELLS:
-            continue
         step = np.maximum((high - low) / (shape - 1.0), 1e-9)
-        path = astar(world.solids, low, step, shape, ends, radius * _SLACK)
+        path = astar(world.solids, low, step, shape, ends, radius + SLACK)
         if len(path):
             whole = np.concatenate([ends[:1], path[1:-1], ends[1:]])
-            return np.asarray(pull_taut(world.solids, radius * _SLACK, whole))
-    return None
+            return Guide(np.asarray(pull_taut(world.solids, radius + BUFFER / 2.0, whole)), width)
+    return Guide(np.empty((0, 3)), width)

@@ -2,19 +2,21 @@
 
     fan of bows -> HAOAROA on the spline's cost -> L-BFGS on the distinct best -> certificate -> best -> timing -> proof
 
-When none of the fan can be proved, a coarse search graph gives the way round and the same polish follows it. The result
-is certified or it is not a result: `NoPathFound` is raised instead.
+When none of the fan can be proved, a search graph gives the way round and the same polish follows it, more closely from
+try to try. The result is certified or it is not a result: `NoPathFound` is raised instead, and says what the graph
+shows.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from planner import errors
 from planner.bspline import DEGREE, FloatArray, clamped_knots, derivative_control_points, evaluate
 from planner.certificate import certify, end_needed, needed
-from planner.cost import FIXED, SplineCost, build_grid
+from planner.cost import FIXED, SAMPLES, Grid, SplineCost, build_grid
 from planner.descent import polish, search
 from planner.distance import nearest_solid
 from planner.guide import guide
@@ -29,17 +31,39 @@ from planner.worlds import Box, Point, World, as_point
 METHODS = ("haoaroa",)
 SPACING = 1.4
 """Aimed distance between control points [m]."""
-FEWEST, MOST = 16, 120
-"""Control points of a plan."""
+FEWEST, MOST, MOST_GUIDED = 16, 120, 400
+"""Control points of a plan; along a guide there may be more, since a polish costs less than a search."""
 ITERATIONS = 30
 """Of HAOAROA, exploration and exploitation together. It has to find the right side of the obstacles, not the minimum:
 the polish is the better finisher. On the benchmark worlds 10, 30 and 100 iterations end in lengths within 0.6 %.
 """
 ELITES = 4
-SOFTEST = (np.inf, 1.5)
-"""Bounds on the rounding of corners [m] (see `cost`), tried in turn along a guide: mazes need the second."""
+NEAREST = 0.25
+"""Least reach c of the obstacles' hinge [m]. Crossing a sheet costs k c^2/2 (see `cost`): with less, a detour around
+one would not pay. Nor is c less than the way between two samples, so that no sheet stands between them unseen.
+"""
+STEP = 0.5
+"""Along a guide a step of the polish is at most this much of the reach, lest the curve jump to a sheet's other side."""
 STIFFER = (1.0, 4.0, 32.0)
 """Factors on the obstacle weight, tried in turn until a curve is proved."""
+
+
+class Try(NamedTuple):
+    """How a guide is followed."""
+
+    spacing: float  # aimed distance between control points [m]
+    softest: float  # bound on the rounding of corners [m] (see `cost`)
+    buffer: float  # most that the hinge reaches beyond the radius [m]
+
+
+TRIES = (
+    Try(SPACING, np.inf, np.inf),
+    Try(SPACING, 1.5, np.inf),  # mazes
+    Try(SPACING / 2.0, 0.75, np.inf),
+    Try(SPACING / 4.0, 0.4, 0.1),  # slits, where a wide hinge pushes from both sides alike
+    Try(SPACING / 8.0, 0.4, 0.1),
+)
+"""Ways to follow a guide, in turn, until a curve is proved."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,44 +181,54 @@ class _Search:
     ) -> None:
         self.world, self.start, self.goal, self.limits, self.radius = world, start, goal, limits, radius
         self.generator = np.random.default_rng(seed)
-        self.reach = radius + max(0.05, 0.4 * radius)
         # Half a margin outside the ends' own bounds: provable, and lower < upper even where the map is 2 radius wide.
         room = (needed(world, radius) + end_needed(world, radius)) / 2.0
         self.lower, self.upper = world.walls[0] + room, world.walls[1] - room
         self.evaluations = self.iterations = self.tried = self.certified = 0
         self.guided = False
-        self.grid = build_grid(world, self.reach)
+        self.grid: Grid | None = None  # for the widest reach so far
+        self.grid_reach = 0.0
         self.refused: list[FloatArray] = []
 
     def run(self, method: str, watch: Stopwatch) -> Plan:
         distance = float(np.linalg.norm(self.goal - self.start))
-        cost = self.spline_cost(distance)
+        cost = self.spline_cost(distance, Try(SPACING, np.inf, np.inf), MOST)
         found = self.prove_all(self.search(cost), cost)
-        if not found:
-            self.guided = True
-            path = guide(self.world, self.start, self.goal, self.radius)
-            if path is not None:
-                length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
-                for softest in SOFTEST:
-                    cost = self.spline_cost(length, softest)
-                    found = found or self.prove_all([along_path(path, cost.n)], cost)
-        for best in sorted(found, key=lambda p: p.value):
-            finished = self.finish(best, method, watch)
-            if finished.certified:
-                return finished
-        raise errors.NoPathFound(self.tried, self.evaluations, self.shortfall(), self.radius)
+        made = self.finish_best(found, method, watch)
+        if made is not None:
+            return made
+        self.guided = True
+        way = guide(self.world, self.start, self.goal, self.radius)
+        for how in TRIES if len(way.path) else ():
+            cost = self.spline_cost(way.length, how, MOST_GUIDED)
+            made = self.finish_best(self.follow(along_path(way.path, cost.n), cost), method, watch)
+            if made is not None:
+                return made
+        raise errors.NoPathFound(self.tried, self.evaluations, self.shortfall(), self.radius, way.length, way.width)
 
-    def spline_cost(self, length: float, softest: float = np.inf) -> SplineCost:
-        n = int(np.clip(round(length / SPACING) + DEGREE, FEWEST, MOST))
+    def finish_best(self, found: list[_Proved], method: str, watch: Stopwatch) -> Plan | None:
+        """The plan from the best of the proved curves whose timed form is proved too, as in practice the first is."""
+        for best in sorted(found, key=lambda p: p.value):
+            made = self.finish(best, method, watch)
+            if made.certified:
+                return made
+        return None
+
+    def spline_cost(self, length: float, how: Try, most: int) -> SplineCost:
+        n = int(np.clip(round(length / how.spacing) + DEGREE, FEWEST, most))
+        wanted = max(self.radius + max(0.05, 0.4 * self.radius), NEAREST)
+        reach = max(min(wanted, self.radius + how.buffer), length / ((n - DEGREE) * SAMPLES))
+        if reach > self.grid_reach:
+            self.grid, self.grid_reach = build_grid(self.world, reach), reach
         return SplineCost(
             self.world,
             self.start,
             self.goal,
             n,
             self.limits,
-            self.reach,
+            reach,
             length=length,
-            softest=softest,
+            softest=how.softest,
             grid=self.grid,
         )
 
@@ -216,7 +250,7 @@ class _Search:
         order = np.argsort(optimiser.population.best_costs, kind="stable")
         ranked = optimiser.population.best_positions[order]
         for i in range(len(ranked)):
-            if i == 0 or (np.abs(ranked[:i] - ranked[i]).max(axis=1) > self.reach).all():
+            if i == 0 or (np.abs(ranked[:i] - ranked[i]).max(axis=1) > cost.reach).all():
                 yield ranked[i].copy()
 
     def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost) -> list[_Proved]:
@@ -238,6 +272,24 @@ class _Search:
                     break
             else:
                 self.refused.append(points)
+        return found
+
+    def follow(self, x: FloatArray, cost: SplineCost) -> list[_Proved]:
+        """Polish a guide's seed, obstacles at their stiffest first, so that it stays on the guide's side of them."""
+        found: list[_Proved] = []
+        self.tried += 1
+        for factor in STIFFER[::-1]:
+            x, evaluations = polish(cost, x, factor, longest=STEP * cost.reach)
+            self.evaluations += evaluations
+            x = self.inside(x)
+            points = cost.control_points(x)
+            if certify(points, clamped_knots(cost.n), self.world, self.radius, full=False).certified:
+                found.append(_Proved(points, x, cost, cost.stretch(x) + cost.smoothness(x)))
+            elif not found:
+                self.refused.append(points)
+            else:
+                break
+        self.certified += bool(found)
         return found
 
     def inside(self, x: FloatArray) -> FloatArray:

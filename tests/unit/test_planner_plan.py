@@ -99,6 +99,42 @@ def test_a_maze_that_no_bow_passes_is_solved_with_the_search_graphs_help() -> No
     assert p.length > 30
 
 
+def thin_baffles(radius: float, seed: int) -> list[Box]:
+    """Sheets a fraction of a millimetre to a centimetre thick across the way, each with an opening; so there is one."""
+    rng = np.random.default_rng(seed)
+    room = 2 * (radius + 0.2)
+    sheets: list[Box] = []
+    for x in np.arange(3.0, 17.0, rng.uniform(2.0, 5.0) + room):
+        low, thickness = rng.uniform(0, 20 - room), rng.choice([5e-4, 5e-3, 1e-2])
+        if rng.random() < 0.3:  # open below or above
+            under = rng.random() < 0.5
+            sheets.append(Box((x, 0, room if under else 0), (x + thickness, 20, 4 if under else 4 - room)))
+        else:
+            sheets += [Box((x, -1, -1), (x + thickness, low, 5)), Box((x, low + room, -1), (x + thickness, 21, 5))]
+    return sheets
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.05, 0.3, 0.6])
+@pytest.mark.parametrize("seed", range(5))
+def test_a_way_between_sheets_of_paper_is_found_and_kept(radius: float, seed: int) -> None:
+    sheets = thin_baffles(radius, seed)
+    p = plan(World(BOUNDS, sheets), START, GOAL, LIMITS, radius, seed=seed)
+    assert p.certified
+    spline = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)
+    points = spline(np.linspace(0, p.trajectory.duration, 40001)[:-1])
+    assert min(box_distance(points, sheet).min() for sheet in sheets) >= radius
+
+
+def test_a_kilometre_of_gates_is_planned_through() -> None:
+    gates = [Box((100 * k, -20 if k % 2 else -5, 0), (100 * k + 1, 5 if k % 2 else 20, 10)) for k in range(1, 10)]
+    p = plan(World(((-10, -20, 0), (1100, 20, 10)), gates), (0, 0, 5), (1000, 0, 5), LIMITS, RADIUS)
+    assert p.certified
+    spline = BSpline(p.trajectory.knots, p.trajectory.control_points, 3)
+    points = spline(np.linspace(0, p.trajectory.duration, 100_001)[:-1])
+    assert min(box_distance(points, gate).min() for gate in gates) >= RADIUS
+    assert 1000 < p.length < 1100
+
+
 def test_a_fast_and_weak_vehicle_gets_round_the_same_corners_more_slowly() -> None:
     world = World(BOUNDS, WORLDS["baffles"])
     nimble = plan(world, START, GOAL, Limits(8.0, 8.0, 80.0), RADIUS)
@@ -264,6 +300,18 @@ def test_a_closed_room_is_not_planned_out_of() -> None:
     e = pickle.loads(pickle.dumps(caught.value))
     assert e.tried > 0
     assert e.shortfall >= RADIUS
+    assert (e.way, e.cell) == (math.inf, 0.125)
+    assert "the search graph shows no way through its cells of 0.125 m" in str(e)
+
+
+def test_a_way_that_cannot_be_followed_is_told_with_its_length(monkeypatch) -> None:
+    module = sys.modules["planner.plan"]
+    monkeypatch.setattr(module, "certify", lambda *_, **__: Certificate(False, -math.inf, -math.inf, 1))
+    with pytest.raises(
+        planner.NoPathFound, match=r"the search graph's way of 18\.0 m .* could not be followed"
+    ) as caught:
+        plan(World(BOUNDS), START, GOAL, LIMITS, RADIUS)
+    assert caught.value.way == pytest.approx(18.0)
 
 
 def test_a_gap_narrower_than_the_vehicle_is_not_passed() -> None:

@@ -1,0 +1,84 @@
+"""The search graph: what it calls free is free by arithmetic of this file, however thin solids or large maps are."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from planner import Box, Cylinder, World
+from planner.guide import MOST_CELLS, guide, widths
+
+BOUNDS = ((0, 0, 0), (12, 8, 3))
+
+
+def sheet(x: float, low: float, high: float, thickness: float) -> Box:
+    """Across the way, full height, from y = low to y = high."""
+    return Box((x, low, -1), (x + thickness, high, 4))
+
+
+def samples(path: np.ndarray) -> np.ndarray:
+    return np.concatenate([np.linspace(a, b, 5000) for a, b in itertools.pairwise(path)])
+
+
+def outside(p: np.ndarray, box: Box) -> np.ndarray:
+    beyond = np.maximum(np.maximum(np.array(box.lower) - p, p - np.array(box.upper)), 0.0)
+    return np.linalg.norm(beyond, axis=1)
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.05, 0.3])
+@pytest.mark.parametrize("thickness", [1e-4, 5e-3, 0.5])
+@pytest.mark.parametrize("seed", range(3))
+def test_no_sheet_is_too_thin_to_go_round(radius: float, thickness: float, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    sheets = [sheet(x + rng.uniform(-0.3, 0.3), -1, rng.uniform(6.5, 7), thickness) for x in (3.0, 8.0)]
+    sheets.append(sheet(5.5 + rng.uniform(-0.3, 0.3), rng.uniform(1, 1.5), 9, thickness))
+    start, goal = np.array([1.0, 4.0, 1.5]), np.array([11.0, 4.0, 1.5])
+    way = guide(World(BOUNDS, sheets), start, goal, radius)
+    assert len(way.path)
+    np.testing.assert_array_equal(way.path[[0, -1]], [start, goal])
+    assert way.length == pytest.approx(np.linalg.norm(np.diff(way.path, axis=0), axis=1).sum())
+    p = samples(way.path)
+    assert min(outside(p, box).min() for box in sheets) >= radius + 0.004
+    assert (p >= radius).all()
+    assert (p <= np.array(BOUNDS[1]) - radius).all()
+
+
+def test_a_way_is_led_through_the_middle_of_a_narrow_door() -> None:
+    walls = [sheet(6, -1, 3.0, 0.2), sheet(6, 4.0, 9, 0.2)]
+    way = guide(World(BOUNDS, walls), np.array([1.0, 1, 1.5]), np.array([11.0, 7, 1.5]), 0.3)
+    p = samples(way.path)
+    within = p[(p[:, 0] > 6) & (p[:, 0] < 6.2)]
+    assert min(abs(within[:, 1] - 3.0).min(), abs(within[:, 1] - 4.0).min()) > 0.35
+
+
+def test_where_there_is_no_way_the_path_is_empty_and_its_length_infinite() -> None:
+    way = guide(World(BOUNDS, [sheet(6, -1, 9, 1e-3)]), np.array([1.0, 4, 1.5]), np.array([11.0, 4, 1.5]), 0.0)
+    assert len(way.path) == 0
+    assert way.length == math.inf
+    assert way.width == 0.125
+
+
+def test_an_end_that_hardly_keeps_the_radius_is_left_all_the_same() -> None:
+    post = Cylinder((3, 4), 1.0, (-1, 4))
+    way = guide(World(BOUNDS, [post]), np.array([1.7 - 1e-6, 4, 1.5]), np.array([11.0, 4, 1.5]), 0.3)
+    assert len(way.path)
+    p = samples(way.path)
+    assert np.hypot(p[:, 0] - 3, p[:, 1] - 4).min() >= 1.3 - 0.01
+
+
+@pytest.mark.parametrize("extent", [(0.1, 0.1, 0.1), (20, 20, 4), (1110, 40, 10), (20_000, 20_000, 500)])
+def test_every_map_has_a_grid_that_fits(extent: tuple[float, float, float]) -> None:
+    found = widths(np.array(extent, dtype=float))
+    assert found == sorted(found, reverse=True)
+    assert all(math.prod(math.ceil(e / w) + 1 for e in extent) <= MOST_CELLS for w in found)
+    assert found
+
+
+def test_a_map_of_a_kilometre_has_a_guide_too() -> None:
+    walls = [sheet(100 * k, -20 if k % 2 else -5, 5 if k % 2 else 20, 1.0) for k in range(1, 10)]
+    high = [Box((b.lower[0], b.lower[1], 0), (b.upper[0], b.upper[1], 10)) for b in walls]
+    world = World(((-10, -20, 0), (1100, 20, 10)), high)
+    way = guide(world, np.array([0.0, 0, 5]), np.array([1000.0, 0, 5]), 0.3)
+    assert 1000.0 < way.length < 1100.0
+    assert min(outside(samples(way.path), box).min() for box in high) >= 0.3
