@@ -1,4 +1,4 @@
-"""A function under a budget: every evaluation counted, costs that are no numbers put last, gradients however it has them.
+"""A function under a budget: evaluations counted, costs that are no numbers put last, gradients however it has them.
 
 Points are rows (n, n_dim), costs (n,).
 """
