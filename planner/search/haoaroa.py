@@ -27,6 +27,8 @@ answer with it):
 Without a gradient the buoyancy is AOA's own, from den, vol and acc, in its shift-invariant form (X_rand - x, X_best -
 x). Density, volume and acceleration are dimensionless: they only weigh differences of positions.
 
+This is the mode shift_invariant; `hybrids` has the equations as printed, and the two parents one after the other.
+
 Every random number of an iteration comes from one block `uniforms` (n_pop, draws), so that `tell` and a fused loop
 which calls `move` itself (see `planner.descent`) make the same moves from the same generator.
 """
