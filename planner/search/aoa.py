@@ -30,7 +30,7 @@ C3 = 1 and C4 = 2 are the authors' for benchmark functions. With them tau < 1 un
 drawn to the origin of the coordinates, and F is always +1; and H6 makes accelerations depend on where the origin is.
 The paper's own r in H13 and H14 is one a coordinate in all modes.
 
-With gradients (told to `tell`), each material also steps down its own: x -= s g, as HAOAROA's buoyancy does (Eq. 45).
+With gradients (told to `tell`), each material also steps down its own: x -= s g, the paper's Eq. 44 with 45.
 """
 
 import math

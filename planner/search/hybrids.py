@@ -4,7 +4,7 @@
 
     early:  x = x + lambda F_buoyancy,  F_buoyancy = -grad J                                Eq. 44, 45; steps 11-13
     late:   x = x + gamma (x_leader - x) - beta grad J                                      Eq. 47, 48; step 17
-    then the cost is evaluated (Eq. 46) and the best is kept (step 20)
+    then the cost, Eq. 46, is evaluated and the best is kept                                steps 19, 20
 
     "If" of step 11             early while TF = exp((t - T)/T) <= 1/2, AOA's transfer operator (Hashim 2021, Eq. 8)
     lambda_p grad, beta_p grad  s g, with g = grad divided by its largest component and s a length of each candidate's

@@ -69,7 +69,8 @@ def minimize(
     mode : str               "shift_invariant", "canonical" or "literal"; see `aoa`, `roa` and `hybrids`.
     seed : int or Generator  the only source of chance: the same seed, the same result.
     maxiter : int            most iterations of the search.
-    budget : int             most evaluations of `fun`, polish included; population * maxiter if not given.
+    budget : int             most evaluations of `fun`, polish included; population * maxiter if not given, of which the
+                             search then has (1 - polish) maxiter iterations.
     population : int         candidates, at least 4.
     x0 : (n_dim,) or (m, n_dim)   where to begin, at most `population` rows, clipped to the bounds.
     jac : callable or True   jac(x, *args) -> (n_dim,), or True when fun returns cost and gradient. It steers search
