@@ -44,6 +44,8 @@ LOOK_US = 20_000
 tick's physics."""
 MAX_PACKETS = 2048
 """Most packets of one tick; what is more is dropped and counted."""
+QUIET_US = 10_000_000
+"""A refusal of a service that is not there is not put into words again before this."""
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter("MAV_SYS_ID", 1, 1, 255, "", "MAVLink system id", ParameterType.INT32),
@@ -124,6 +126,7 @@ class Vehicle:
         self._entered = 0
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
+        self._warned: dict[str, int] = {}  # a handful of fixed texts, and when each was last said
         self._now_us: int | None = None
 
     @property
@@ -227,7 +230,7 @@ class Vehicle:
     def _routes(self) -> dict[int, Handler]:
         """Which message goes to which service."""
         m, out, commands, params = mavlink, self._outbox, self._commands, self._parameter_service
-        setpoints, warn = self._setpoints, self._warn
+        setpoints, warn_rarely = self._setpoints, self._warn_rarely
         return {
             m.MAVLINK_MSG_ID_COMMAND_LONG: lambda s, g: commands.command_long(s, g, self._now()),
             m.MAVLINK_MSG_ID_COMMAND_INT: lambda s, g: commands.command_int(s, g, self._now()),
@@ -241,17 +244,17 @@ class Vehicle:
             m.MAVLINK_MSG_ID_PING: lambda s, g: timing.ping(out, s, g),
             m.MAVLINK_MSG_ID_TIMESYNC: lambda s, g: timing.timesync(out, s, g, self._now()),
             m.MAVLINK_MSG_ID_MISSION_REQUEST_LIST: lambda s, g: absent.mission_list(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_COUNT: lambda s, g: absent.mission_count(out, s, g, warn),
+            m.MAVLINK_MSG_ID_MISSION_COUNT: lambda s, g: absent.mission_count(out, s, g, warn_rarely),
             m.MAVLINK_MSG_ID_MISSION_CLEAR_ALL: lambda s, g: absent.mission_clear(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_REQUEST: lambda s, g: absent.mission_request(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_REQUEST_INT: lambda s, g: absent.mission_request(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_SET_CURRENT: lambda s, g: absent.mission_request(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_ITEM: lambda s, g: absent.mission_item(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_ITEM_INT: lambda s, g: absent.mission_item(out, s, g),
+            m.MAVLINK_MSG_ID_MISSION_REQUEST: lambda s, g: absent.mission_request(out, s, g, warn_rarely),
+            m.MAVLINK_MSG_ID_MISSION_REQUEST_INT: lambda s, g: absent.mission_request(out, s, g, warn_rarely),
+            m.MAVLINK_MSG_ID_MISSION_SET_CURRENT: lambda s, g: absent.mission_request(out, s, g, warn_rarely),
+            m.MAVLINK_MSG_ID_MISSION_ITEM: lambda s, g: absent.mission_item(out, s, g, warn_rarely),
+            m.MAVLINK_MSG_ID_MISSION_ITEM_INT: lambda s, g: absent.mission_item(out, s, g, warn_rarely),
             m.MAVLINK_MSG_ID_LOG_REQUEST_LIST: lambda s, g: absent.log_list(out, s, g),
             m.MAVLINK_MSG_ID_LOG_REQUEST_DATA: lambda s, g: absent.log_data(out, s, g),
-            m.MAVLINK_MSG_ID_SERIAL_CONTROL: lambda s, g: absent.serial_control(out, s, g, warn),
-            m.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: lambda s, g: absent.file_transfer(out, s, g),
+            m.MAVLINK_MSG_ID_SERIAL_CONTROL: lambda s, g: absent.serial_control(out, s, g, warn_rarely),
+            m.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: lambda s, g: absent.file_transfer(out, s, g, warn_rarely),
         }
 
     def _tell_changes(self) -> None:
@@ -282,6 +285,13 @@ class Vehicle:
 
     def _warn(self, text: str) -> None:
         self._outbox.text(mavlink.MAV_SEVERITY_WARNING, text)
+
+    def _warn_rarely(self, text: str) -> None:
+        """A warning that a client's next attempt does not bring up again for a while."""
+        said = self._warned.get(text)
+        if said is None or self._now() - said >= QUIET_US:
+            self._warned[text] = self._now()
+            self._warn(text)
 
     def _now(self) -> int:
         return self._now_us or 0

@@ -1,6 +1,8 @@
 """Services this vehicle does not have yet, each with an answer: a client that is told "none" does not wait.
 
-An unanswered request costs a client dearly (file list 32 s, log list 7.5 s), and an honest "none" costs nothing.
+An unanswered request costs a client dearly (file list 32 s, log list 7.5 s), and an honest "none" costs nothing. What
+is refused is also said in words, by `warn`; an empty list is an answer and no refusal. Some clients ask over and over,
+so `warn` is expected to keep quiet about what it has just said.
 """
 
 import struct
@@ -37,14 +39,16 @@ def mission_clear(outbox: Outbox, sender: Sender, message: Message) -> None:
     _mission_ack(outbox, sender, message, mavlink.MAV_MISSION_ACCEPTED)
 
 
-def mission_request(outbox: Outbox, sender: Sender, message: Message) -> None:
+def mission_request(outbox: Outbox, sender: Sender, message: Message, warn: Callable[[str], None]) -> None:
     """MISSION_REQUEST, MISSION_REQUEST_INT, MISSION_SET_CURRENT: no item has any number."""
     _mission_ack(outbox, sender, message, mavlink.MAV_MISSION_INVALID_SEQUENCE)
+    warn("Mission item refused: there are none")
 
 
-def mission_item(outbox: Outbox, sender: Sender, message: Message) -> None:
+def mission_item(outbox: Outbox, sender: Sender, message: Message, warn: Callable[[str], None]) -> None:
     """MISSION_ITEM, MISSION_ITEM_INT: nobody asked for one."""
     _mission_ack(outbox, sender, message, mavlink.MAV_MISSION_UNSUPPORTED)
+    warn("Mission refused: this vehicle flies no missions")
 
 
 def _mission_ack(outbox: Outbox, sender: Sender, message: Message, result: int) -> None:
@@ -73,7 +77,7 @@ def serial_control(outbox: Outbox, sender: Sender, message: Message, warn: Calla
     warn("Shell refused: this vehicle has none")
 
 
-def file_transfer(outbox: Outbox, sender: Sender, message: Message) -> None:
+def file_transfer(outbox: Outbox, sender: Sender, message: Message, warn: Callable[[str], None]) -> None:
     """FILE_TRANSFER_PROTOCOL: every folder is empty and no file is found."""
     raw = bytes(message.payload)
     sequence, session, opcode, _, _, _, _, offset = _FTP_HEADER.unpack_from(raw)
@@ -85,10 +89,13 @@ def file_transfer(outbox: Outbox, sender: Sender, message: Message) -> None:
         kind, data = _NAK, bytes([_END_OF_FILE])
     elif opcode in (_OPEN_READ, _CRC32):
         kind, data = _NAK, bytes([_NOT_FOUND])
+        warn("File refused: this vehicle keeps none")
     elif opcode in (_READ, _BURST_READ):
         kind, data = _NAK, bytes([_INVALID_SESSION])
+        warn("File refused: it was never opened")
     else:
         kind, data = _NAK, bytes([_UNKNOWN_COMMAND])
+        warn("File operation refused: files can only be listed")
     header = _FTP_HEADER.pack((sequence + 1) & 0xFFFF, session, kind, len(data), opcode, 0, 0, offset)
     payload = (header + data).ljust(251, b"\0")
     outbox.answer(

@@ -1,7 +1,11 @@
 """COMMAND_LONG and COMMAND_INT: what each command does, and the COMMAND_ACK that always follows.
 
-Both messages become one `Command`; the table `_HANDLERS` says who carries it out. A handler returns a `Verdict`; every
-refusal gives a reason, which goes out as a STATUSTEXT beside the ACK. NaN in a parameter counts as not given.
+Both messages become one `Command`; the table `_SERVICES` says who carries it out and which parameters are understood.
+A handler returns a `Verdict`; every refusal gives a reason, which goes out as a STATUSTEXT beside the ACK. NaN in a
+parameter counts as not given, and so does 0 in one that is not understood; any other value there is DENIED, since it
+asks for something that would not happen. Three are taken though they change nothing, for what clients really send: the
+pitch of a takeoff (of planes only; QGroundControl sends -1), a place to take off or land at, as long as it is the one
+below the vehicle, and the version number of REQUEST_AUTOPILOT_CAPABILITIES.
 
 The refusals' result codes are PX4's: TEMPORARILY_REJECTED when the vehicle's condition forbids it, DENIED when the
 parameters do, UNSUPPORTED for a command it does not have, FAILED where PX4 fails (a stream it does not know).
@@ -102,11 +106,13 @@ class Commands:
         self._carry_out(sender, command, now_us)
 
     def _carry_out(self, sender: Sender, command: Command, now_us: int) -> None:
-        handler = _HANDLERS.get(command.command)
-        if handler is None:
+        service = _SERVICES.get(command.command)
+        if service is None:
             verdict = Verdict(mavlink.MAV_RESULT_UNSUPPORTED, "this vehicle does not have it")
+        elif surplus := _surplus(command, service.understood):
+            verdict = denied(surplus)
         else:
-            verdict = handler(self, sender, command, now_us)
+            verdict = service.carry_out(self, sender, command, now_us)
         self._outbox.answer(
             sender,
             mavlink.MAVLink_command_ack_message(
@@ -115,19 +121,25 @@ class Commands:
         )
         if verdict.reason:
             self.rejected += 1
-            self._outbox.text(mavlink.MAV_SEVERITY_CRITICAL, f"{_title(command.command)} denied: {verdict.reason}")
+            self._outbox.text(mavlink.MAV_SEVERITY_CRITICAL, f"{_title(command)} denied: {verdict.reason}")
 
     # The commands, in the order of their numbers
 
     def _return(self, _sender: Sender, _command: Command, now_us: int) -> Verdict:
         return judged(self._supervisor.ask(Event.ASK_RTL, now_us))
 
-    def _land(self, _sender: Sender, _command: Command, now_us: int) -> Verdict:
-        """Here and now, as PX4: a place in the command is not flown to."""
+    def _land(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        """Here and now, as PX4 does; another place is refused where PX4 would quietly land here."""
+        elsewhere = self._elsewhere(command)
+        if elsewhere is not None:
+            return denied(f"that place is {elsewhere:.0f} m away, it lands here")
         return judged(self._supervisor.ask(Event.ASK_LAND, now_us))
 
     def _takeoff(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         """To parameter 7, metres above mean sea level as in PX4; NaN or 0: MIS_TAKEOFF_ALT above the ground."""
+        elsewhere = self._elsewhere(command)
+        if elsewhere is not None:
+            return denied(f"that place is {elsewhere:.0f} m away, it climbs here")
         altitude = command.params[4]
         if math.isnan(altitude) or altitude == 0.0:
             return judged(self._supervisor.ask_takeoff(now_us, None))
@@ -141,6 +153,20 @@ class Commands:
             return judged(self._supervisor.ask_takeoff(now_us, (home.position_n[2] if home else 0.0) - altitude))
         return judged(self._supervisor.ask_takeoff(now_us, origin.altitude - altitude))
 
+    def _elsewhere(self, command: Command) -> float | None:
+        """How far away [m] the command's place is, when it has one and that is not where the vehicle is."""
+        latitude, longitude = command.latitude_deg, command.longitude_deg
+        if math.isnan(latitude) or math.isnan(longitude) or latitude == longitude == 0.0:
+            return None
+        origin, here_n = self._places.origin, self._supervisor.position_n
+        if origin is None or here_n is None:
+            return None  # what needs a position is refused for want of one
+        if not _on_globe(latitude, longitude):
+            return math.inf
+        there_n = self._places.local(Geodetic(np.radians(latitude), np.radians(longitude), origin.altitude))
+        distance = math.inf if there_n is None else math.dist(there_n[:2], here_n[:2])
+        return distance if distance > HERE else None
+
     def _set_mode(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         base, main, sub = (_whole(p) for p in command.params[:3])
         if base is None or not base & mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED:
@@ -151,7 +177,15 @@ class Commands:
         return judged(self._supervisor.ask(event, now_us))
 
     def _reposition(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        """Fly to a place and hold. Parameter 4 is the yaw [rad]; NaN anywhere keeps what is."""
+        """Fly to a place and hold. Parameter 4 is the yaw [rad]; NaN anywhere keeps what is.
+
+        The speed (1) is the vehicle's own: only -1, the default, may be asked for. Of the flags (2) it has CHANGE_MODE.
+        """
+        speed, flags = command.params[:2]
+        if speed not in (-1.0, 0.0) and not math.isnan(speed):
+            return denied(f"param1 is {speed:g}, the speed is MPC_XY_CRUISE")
+        if flags not in (0.0, 1.0) and not math.isnan(flags):
+            return denied(f"param2 is {flags:g}, expected 0 or 1")
         if command.frame not in _GLOBAL + _RELATIVE:
             return denied(f"frame {command.frame}, expected a global one")
         home, estimate_n = self._supervisor.home, self._supervisor.position_n
@@ -160,7 +194,7 @@ class Commands:
             return judged("position not known yet")
         target_n = estimate_n.copy()
         if not (math.isnan(command.latitude_deg) or math.isnan(command.longitude_deg)):
-            if not (abs(command.latitude_deg) <= 90.0 and abs(command.longitude_deg) <= 180.0):
+            if not _on_globe(command.latitude_deg, command.longitude_deg):
                 return denied(f"latitude {command.latitude_deg}, longitude {command.longitude_deg}: not on the globe")
             place = Geodetic(np.radians(command.latitude_deg), np.radians(command.longitude_deg), origin.altitude)
             local_n = self._places.local(place)
@@ -181,6 +215,8 @@ class Commands:
         wanted, force = command.params[0], command.params[1]
         if wanted not in (0.0, 1.0):
             return denied(f"param1 is {wanted:g}, expected 0 or 1")
+        if force not in (0.0, FORCE) and not math.isnan(force):
+            return denied(f"param2 is {force:g}, expected 0 or {FORCE}")
         if wanted == 1.0:  # force does not bypass the checks of arming, in PX4 from outside either
             return judged(self._supervisor.ask(Event.ASK_ARM, now_us))
         event = Event.ASK_KILL if force == FORCE else Event.ASK_DISARM
@@ -195,6 +231,9 @@ class Commands:
         return ACCEPTED
 
     def _set_interval(self, sender: Sender, command: Command, now_us: int) -> Verdict:
+        """For every peer of the sender's link: response target (7) 0, the vehicle's choice, or 2, broadcast."""
+        if not _is_target(command.params[4], (0.0, 2.0)):
+            return denied(f"param7 is {command.params[4]:g}, streams go to all (0 or 2)")
         number, interval = _whole(command.params[0]), command.params[1]
         if number is None or not math.isfinite(interval):
             return denied("a message number and an interval are needed")
@@ -203,14 +242,22 @@ class Commands:
         return ACCEPTED
 
     def _request_message(self, sender: Sender, command: Command, now_us: int) -> Verdict:
-        """The message goes out before its ACK, as PX4 does it."""
+        """The message goes out before its ACK, as PX4 does it.
+
+        Response target (7): 0, the vehicle's choice, and 1 answer the sender, 2 tells everybody.
+        """
+        if not _is_target(command.params[4], (0.0, 1.0, 2.0)):
+            return denied(f"param7 is {command.params[4]:g}, expected 0, 1 or 2")
         number = _whole(command.params[0])
         message = None if number is None else self._streams.build(number)
         if message is None:
             if number is not None and self._streams.knows(number):
                 return judged(f"message {number} has no content yet")
             return denied(f"this vehicle has no message {number}")
-        self._outbox.answer(sender, message)
+        if command.params[4] == BROADCAST:
+            self._outbox.everywhere(message)
+        else:
+            self._outbox.answer(sender, message)
         return ACCEPTED
 
     def _request_capabilities(self, sender: Sender, _command: Command, now_us: int) -> Verdict:
@@ -221,17 +268,31 @@ class Commands:
 MAX_GOTO = 10_000.0
 """Farthest place a DO_REPOSITION may name [m]; the local frame is flat."""
 
-_HANDLERS: dict[int, Callable[[Commands, Sender, Command, int], Verdict]] = {
-    mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: Commands._return,
-    mavlink.MAV_CMD_NAV_LAND: Commands._land,
-    mavlink.MAV_CMD_NAV_TAKEOFF: Commands._takeoff,
-    mavlink.MAV_CMD_DO_SET_MODE: Commands._set_mode,
-    mavlink.MAV_CMD_DO_REPOSITION: Commands._reposition,
-    mavlink.MAV_CMD_COMPONENT_ARM_DISARM: Commands._arm_disarm,
-    mavlink.MAV_CMD_GET_MESSAGE_INTERVAL: Commands._get_interval,
-    mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: Commands._set_interval,
-    mavlink.MAV_CMD_REQUEST_MESSAGE: Commands._request_message,
-    mavlink.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: Commands._request_capabilities,
+HERE = 10.0
+"""A place this near to the vehicle [m] is where it is: clients send the place they last saw, and GPS wanders."""
+BROADCAST = 2.0
+"""REQUEST_MESSAGE's response target that means everybody."""
+
+
+@dataclass(frozen=True, slots=True)
+class Service:
+    """Who carries a command out, and the numbers of the parameters it understands."""
+
+    carry_out: Callable[[Commands, Sender, Command, int], Verdict]
+    understood: tuple[int, ...] = ()
+
+
+_SERVICES: dict[int, Service] = {
+    mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: Service(Commands._return),
+    mavlink.MAV_CMD_NAV_LAND: Service(Commands._land, (5, 6, 7)),
+    mavlink.MAV_CMD_NAV_TAKEOFF: Service(Commands._takeoff, (1, 5, 6, 7)),
+    mavlink.MAV_CMD_DO_SET_MODE: Service(Commands._set_mode, (1, 2, 3)),
+    mavlink.MAV_CMD_DO_REPOSITION: Service(Commands._reposition, (1, 2, 4, 5, 6, 7)),
+    mavlink.MAV_CMD_COMPONENT_ARM_DISARM: Service(Commands._arm_disarm, (1, 2)),
+    mavlink.MAV_CMD_GET_MESSAGE_INTERVAL: Service(Commands._get_interval, (1,)),
+    mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: Service(Commands._set_interval, (1, 2, 7)),
+    mavlink.MAV_CMD_REQUEST_MESSAGE: Service(Commands._request_message, (1, 7)),
+    mavlink.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: Service(Commands._request_capabilities, (1,)),
 }
 
 _TITLES = {
@@ -247,8 +308,28 @@ _TITLES = {
 }
 
 
-def _title(command: int) -> str:
-    return _TITLES.get(command, f"Command {command}")
+def _title(command: Command) -> str:
+    if command.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM and command.params[0] == 0.0:
+        return "Disarming"
+    return _TITLES.get(command.command, f"Command {command.command}")
+
+
+def _surplus(command: Command, understood: tuple[int, ...]) -> str:
+    """The first parameter that asks for something which would not happen, in words; empty when none does."""
+    p = command.params
+    values = (p[0], p[1], p[2], p[3], command.latitude_deg, command.longitude_deg, p[4])
+    for number, value in enumerate(values, start=1):
+        if number not in understood and value != 0.0 and not math.isnan(value):
+            return f"param{number} is {value:g}, not supported"
+    return ""
+
+
+def _is_target(value: float, known: tuple[float, ...]) -> bool:
+    return math.isnan(value) or value in known
+
+
+def _on_globe(latitude_deg: float, longitude_deg: float) -> bool:
+    return abs(latitude_deg) <= 90.0 and abs(longitude_deg) <= 180.0
 
 
 def _whole(value: float) -> int | None:

@@ -214,7 +214,11 @@ class Telemetry:
         )
 
     def odometry(self) -> Message | None:
-        """Pose in local NED, velocity in body FRD, as the frames say; covariances of what the filter estimates."""
+        """Pose and velocity in local NED, body rates; variances of what the filter estimates.
+
+        PX4 sends the velocity in local NED too (child frame 1, and not FRD), with its variances in that frame, and
+        quality 0, unknown. The attitude's variances are of turns about the body's axes.
+        """
         e = self.estimate
         if not (e.attitude_valid and e.position_valid):
             return None
@@ -223,16 +227,16 @@ class Telemetry:
         return mavlink.MAVLink_odometry_message(
             self.now_us,
             mavlink.MAV_FRAME_LOCAL_NED,
-            mavlink.MAV_FRAME_BODY_FRD,
+            mavlink.MAV_FRAME_LOCAL_NED,
             *e.position_n.tolist(),
             q,
-            *_into_body(q, e.velocity_n.tolist()),
+            *e.velocity_n.tolist(),
             *e.omega_b.tolist(),
             _upper_triangle(p1, p2, p3, t1, t2, t3),
             _upper_triangle(v1, v2, v3, NAN, NAN, NAN),
             0,
             mavlink.MAV_ESTIMATOR_TYPE_AUTOPILOT,
-            100,
+            0,
         )
 
     def home_position(self) -> Message | None:

@@ -261,7 +261,7 @@ def test_landing_is_told_step_by_step_and_ends_disarmed_in_hold(pilot: Pilot) ->
 def test_disarming_in_the_air_is_refused_unless_forced(pilot: Pilot) -> None:
     airborne(pilot)
     assert pilot.command(400, 0) == REJECTED
-    assert "not landed" in pilot.texts()[-1]
+    assert pilot.texts()[-1] == "Disarming denied: not landed"
     assert pilot.command(400, 0, 21196) == ACCEPTED
     assert not pilot.armed
 
@@ -318,6 +318,74 @@ def test_set_mode_needs_the_custom_mode_bit_and_the_old_message_works_too(pilot:
 def test_an_unsupported_command_is_acknowledged_as_such(pilot: Pilot) -> None:
     assert pilot.command(31010) == UNSUPPORTED
     assert "31010" in pilot.texts()[-1]
+
+
+@pytest.mark.parametrize(
+    ("number", "params", "named"),
+    [
+        (21, (5.0,), "param1"),
+        (21, (0, 1.0), "param2"),
+        (21, (0, 0, 0, 90.0), "param4"),
+        (22, (0, 0, 0, 45.0, NAN, NAN, NAN), "param4"),
+        (20, (0, 0, 0, 0, 0, 0, 30.0), "param7"),
+        (176, (1, 4, 3, 7), "param4"),
+        (400, (1, 2989), "param2"),
+        (400, (1, 0, 3), "param3"),
+        (510, (30, 1), "param2"),
+        *((511, (30, 50_000, *(0,) * (n - 3), 1), f"param{n}") for n in range(3, 8)),
+        *((512, (148, *(0,) * (n - 2), 5), f"param{n}") for n in range(2, 8)),
+        (512, (148, math.inf), "param2"),
+        (192, (4.0, 1, 0, NAN, 47.3977, 8.5456, 492.0), "param1"),
+        (192, (-1, 2, 0, NAN, 47.3977, 8.5456, 492.0), "param2"),
+        (192, (-1, 1, 30, NAN, 47.3977, 8.5456, 492.0), "param3"),
+    ],
+)
+def test_a_parameter_that_would_change_nothing_is_denied_by_its_number(
+    pilot: Pilot, number: int, params: tuple[float, ...], named: str
+) -> None:
+    airborne(pilot)
+    mode, interval = pilot.mode, pilot.vehicle._streams.interval_us("onboard", 30)
+    assert pilot.command(number, *params) == DENIED
+    assert f" {named} is " in pilot.texts()[-1]
+    assert (pilot.mode, pilot.vehicle._streams.interval_us("onboard", 30)) == (mode, interval)
+    assert pilot.vehicle.counters.rejected_commands == 1
+
+
+# What clients were seen to send, or their sources say: MAVSDK leaves NaN, pymavlink's users 0, QGroundControl -1 and 0
+@pytest.mark.parametrize("empty", [0.0, NAN])
+def test_parameters_left_empty_by_nan_or_zero_are_not_given(pilot: Pilot, empty: float) -> None:
+    rest = (empty,) * 7
+    assert pilot.command(511, 30, 20_000, *rest[:5]) == ACCEPTED
+    assert pilot.command(512, 148, *rest[:6]) == ACCEPTED
+    assert pilot.command(510, 30, *rest[:6]) == ACCEPTED
+    assert pilot.command(520, 1, *rest[:6]) == ACCEPTED
+    assert pilot.command(400, 1, *rest[:6]) == ACCEPTED
+    assert pilot.command(22, *rest) == ACCEPTED
+    pilot.until(lambda: pilot.mode == HOLD, 10)
+    assert pilot.command(192, -1, 1, empty, NAN, 47.397742, 8.545594, 492.0) == ACCEPTED
+    assert pilot.command(176, 1, 4, 3, *rest[:4]) == ACCEPTED
+    assert pilot.command(20, *rest) == ACCEPTED
+    assert pilot.command(21, *rest) == ACCEPTED
+
+
+def test_takeoff_and_landing_take_the_place_below_the_vehicle_and_no_other(pilot: Pilot) -> None:
+    assert pilot.command(400, 1) == ACCEPTED
+    assert pilot.command(22, -1, 0, 0, NAN, 47.3990, 8.5456, 494.0) == DENIED  # 140 m north
+    assert "140 m away" in pilot.texts()[-1]
+    assert pilot.command(22, 0, 0, 0, NAN, math.inf, 8.5456, 494.0) == DENIED
+    assert pilot.command(22, -1, 0, 0, NAN, 47.39775, 8.54559, 494.0) == ACCEPTED
+    pilot.until(lambda: pilot.mode == HOLD, 10)
+    assert pilot.command(21, 0, 0, 0, NAN, 47.3990, 8.5456, 0) == DENIED
+    assert pilot.mode == HOLD
+    assert pilot.command(21, 0, 0, 0, NAN, 47.39775, 8.54559, 488.0) == ACCEPTED
+    assert pilot.mode == LAND
+
+
+@pytest.mark.parametrize(("target", "links"), [(0, {"onboard"}), (1, {"onboard"}), (2, {"onboard", "gcs"})])
+def test_a_requested_message_goes_to_the_asker_or_to_everybody(pilot: Pilot, target: int, links: set[str]) -> None:
+    pilot.heard.clear()
+    assert pilot.command(512, 148, 0, 0, 0, 0, 0, target) == ACCEPTED
+    assert {link for _, link, _, g in pilot.heard if g.get_type() == "AUTOPILOT_VERSION"} == links
 
 
 # OFFBOARD
@@ -534,6 +602,48 @@ def test_missions_are_empty_and_uploads_are_refused(pilot: Pilot) -> None:
     pilot.send(m.MAVLink_mission_clear_all_message(1, 1, 255))
     pilot.tick()
     assert pilot.last("MISSION_ACK").type == m.MAV_MISSION_ACCEPTED
+
+
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        (m.MAVLink_mission_request_message(1, 1, 3, 0), "Mission item refused"),
+        (m.MAVLink_mission_request_int_message(1, 1, 3, 0), "Mission item refused"),
+        (m.MAVLink_mission_set_current_message(1, 1, 3), "Mission item refused"),
+        (m.MAVLink_mission_item_message(1, 1, 0, 3, 16, 0, 1, 0, 0, 0, 0, 0, 0, 0), "Mission refused"),
+        (m.MAVLink_mission_item_int_message(1, 1, 0, 3, 16, 0, 1, 0, 0, 0, 0, 0, 0, 0), "Mission refused"),
+        *(
+            (m.MAVLink_file_transfer_protocol_message(0, 1, 1, bytes([9, 0, 0, opcode]).ljust(251, b"\0")), "File ")
+            for opcode in (4, 5, 6, 14, 15)  # open for reading, read, create, checksum, burst read
+        ),
+    ],
+)
+def test_what_a_missing_service_refuses_is_said_in_words_but_not_at_every_attempt(
+    pilot: Pilot, request_: Any, words: str
+) -> None:
+    for _ in range(8):
+        pilot.send(request_)
+        pilot.run(1.0)
+    assert [text.startswith(words) for text in pilot.texts()] == [True]
+    pilot.run(3.0)
+    pilot.send(request_)
+    pilot.tick()
+    assert [text.startswith(words) for text in pilot.texts()] == [True, True]
+
+
+def test_odometry_has_position_and_velocity_in_the_frames_it_names_as_px4_has(pilot: Pilot) -> None:
+    point(pilot).q = np.array([math.cos(0.6), 0.0, 0.0, math.sin(0.6)])
+    airborne(pilot)
+    pilot.send(set_target(0x5C7, vx=3.0, vy=-1.0, vz=0.0))
+    assert pilot.command(176, 1, 6) == ACCEPTED
+    pilot.fly(2.0, set_target(0x5C7, vx=3.0, vy=-1.0, vz=0.0))
+    odometry, local = pilot.last("ODOMETRY"), pilot.last("LOCAL_POSITION_NED")
+    assert (odometry.frame_id, odometry.child_frame_id) == (m.MAV_FRAME_LOCAL_NED, m.MAV_FRAME_LOCAL_NED)
+    assert (odometry.quality, odometry.estimator_type) == (0, m.MAV_ESTIMATOR_TYPE_AUTOPILOT)
+    np.testing.assert_allclose((odometry.vx, odometry.vy, odometry.vz), (3.0, -1.0, 0.0), atol=0.02)
+    np.testing.assert_allclose((odometry.vx, odometry.vy), (local.vx, local.vy), atol=0.02)
+    variances = [odometry.velocity_covariance[i] for i in (0, 6, 11)]  # the diagonal of an upper triangle
+    np.testing.assert_allclose(variances, 0.01, rtol=1e-6)
 
 
 def test_files_logs_and_shell_are_answered_with_none(pilot: Pilot) -> None:
