@@ -135,5 +135,15 @@ def asks_to_climb(asked: Setpoint, height_n: float) -> bool:
     return az < -0.05
 
 
+def asks_to_sink(asked: Setpoint, height_n: float) -> bool:
+    """Whether a setpoint wants a vehicle that flies at down coordinate `height_n` [m] to sink for a while yet."""
+    z, vz = float(asked.position_n[2]), float(asked.velocity_n[2])
+    if not math.isnan(z):
+        return z > height_n + SINK_MARGIN
+    return vz > SINK_MARGIN
+
+
+SINK_MARGIN = 0.25
+"""A setpoint this far below [m], or a speed of it [m/s], is clearly downwards; the slowest landing is at 0.3 m/s."""
 LIFT_OFF_MARGIN = 0.1
 """A position setpoint this far above a standing vehicle [m] means: take off. Less may be the estimate's own noise."""

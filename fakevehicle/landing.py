@@ -2,6 +2,11 @@
 
 It has taken off when it pushes and has risen or climbs. It has landed when the loops, still asked to sink, have let go
 of the thrust and nothing moves: in free fall the speed gives it away, in a steady descent the thrust does.
+
+Before that it touches the ground, when it is asked to sink and does not although the thrust is below a hover's. Whoever
+flies it should then let the motors idle: loops that go on pulling feet over the ground against the wind wind themselves
+up, lean, and keep the thrust too high for the landing to be seen. Were it wrong, in the air, 0.3 m/s of sinking would
+end it, which idling motors give within a few hundredths of a second.
 """
 
 import math
@@ -17,17 +22,22 @@ LAND_THRUST = 0.3
 LAND_SINK = 0.3  # [m/s] either way
 LAND_DRIFT = 1.0  # [m/s]
 LAND_TIME_US = 1_000_000
+TOUCH_THRUST = 0.5
+TOUCH_SINK = 0.1  # [m/s] either way; every descent is asked to be faster
+TOUCH_TIME_US = 400_000
 
 
 @dataclass(slots=True)
 class LandDetector:
-    """Debounces the two transitions; `airborne` is the answer."""
+    """Debounces the transitions; `airborne` is the answer, and `touching` says that the ground is probably there."""
 
     airborne: bool = False
+    touching: bool = False
+    _still_since_us: int | None = None
     _since_us: int | None = None
     _standing_z: float = math.nan  # [m] down coordinate where it last stood
 
-    def step(self, now_us: int, estimate: Estimate, thrust: float, armed: bool) -> None:
+    def step(self, now_us: int, estimate: Estimate, thrust: float, armed: bool, sinking: bool) -> None:
         """Look at one tick.
 
         Parameters
@@ -36,10 +46,18 @@ class LandDetector:
         estimate : the estimator's newest.
         thrust : collective the loops command, 0..1 of the maximum.
         armed : disarmed motors give no thrust, whatever is commanded.
+        sinking : whether the loops are asked to sink.
         """
         _, _, z = estimate.position_n.tolist()
         vn, ve, vd = estimate.velocity_n.tolist()
         thrust = thrust if armed else 0.0
+        slow = LAND_SINK if self.touching else TOUCH_SINK  # letting go shakes the feet a little
+        resting = thrust < TOUCH_THRUST and abs(vd) < slow and math.hypot(vn, ve) < LAND_DRIFT
+        if not (self.airborne and sinking and resting):
+            self._still_since_us = None
+        elif self._still_since_us is None:
+            self._still_since_us = now_us
+        self.touching = self._still_since_us is not None and now_us - self._still_since_us >= TOUCH_TIME_US
         if self.airborne:
             changing = thrust < LAND_THRUST and abs(vd) < LAND_SINK and math.hypot(vn, ve) < LAND_DRIFT
             needed_us = LAND_TIME_US

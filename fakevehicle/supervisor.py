@@ -13,6 +13,7 @@ import numpy as np
 from fakevehicle.guidance import (
     Leg,
     asks_to_climb,
+    asks_to_sink,
     completed,
     descent,
     landing_speed,
@@ -204,7 +205,7 @@ class Supervisor:
         if self.home is None and estimate.position_valid and estimate.altitude_valid:
             self.home = Home(estimate.position_n.copy(), yaw_of(estimate.q_nb))
         was_airborne = self.airborne
-        self._ground.step(now_us, estimate, thrust, self.armed)
+        self._ground.step(now_us, estimate, thrust, self.armed, self._sinking(estimate))
         if self.airborne is not was_airborne:
             self._changed_us = now_us
             self._flown = self._flown or self.airborne
@@ -215,10 +216,16 @@ class Supervisor:
             self._watch_ground(now_us)
 
     def setpoint(self, now_us: int) -> Setpoint | None:
-        """Where to fly in this tick. None: motors at rest, or idling when armed."""
-        if not self.armed or self._estimate is None:
+        """Where to fly in this tick. None: motors at rest, or idling when armed, as when it touches the ground."""
+        if not self.armed or self._estimate is None or self._ground.touching:
             return None
         return self._setpoint(now_us, self._estimate)
+
+    def _sinking(self, estimate: Estimate) -> bool:
+        """Whether what is flown now leads downwards."""
+        if self.mode is Mode.OFFBOARD:
+            return self._asked is not None and asks_to_sink(self._asked, float(estimate.position_n[2]))
+        return self.landing
 
     def _watch_stream(self, now_us: int) -> None:
         """Lose OFFBOARD when the setpoints stop, and regain it when they return."""

@@ -56,6 +56,26 @@ def test_offboard_from_the_ground_and_back_lands_and_disarms(pilot: Pilot) -> No
     assert pilot.vehicle.truth.on_ground
 
 
+@pytest.mark.parametrize(("seed", "wind"), [(4, (8.0, 4.0, 0.0)), (9, (7.0, 7.0, 0.0))])
+def test_a_landing_in_strong_wind_lets_go_on_the_ground_before_it_leans(
+    seed: int, wind: tuple[float, float, float]
+) -> None:
+    """GIVEN 9 m/s of wind WHEN it lands THEN it idles at the touch of the ground and soon knows that it has landed."""
+    pilot = Pilot(Vehicle(VehicleConfig(links=ONBOARD, seed=seed, wind_n=np.array(wind))))
+    pilot.until(lambda: pilot.vehicle.flying.why_not_armable(pilot.now_us) is None, 20)
+    assert pilot.command(400, 1) == ACCEPTED
+    assert pilot.command(22, NAN, NAN, NAN, NAN, NAN, NAN, NAN) == ACCEPTED
+    pilot.until(lambda: pilot.mode == HOLD, 8)
+    pilot.run(3.0)
+    assert pilot.command(21) == ACCEPTED
+    pilot.until(lambda: pilot.vehicle.truth.on_ground, 10)
+    touched_n = pilot.vehicle.truth.position_n
+    assert pilot.until(lambda: not pilot.vehicle.flying.airborne, 3) > 1.0
+    _, x, y, _ = pilot.vehicle.truth.q_nb
+    assert 2 * np.hypot(x, y) < np.radians(1.0)
+    np.testing.assert_allclose(pilot.vehicle.truth.position_n, touched_n, atol=0.2)
+
+
 def test_a_lost_stream_in_wind_is_held_where_it_was_lost() -> None:
     pilot = Pilot(Vehicle(VehicleConfig(links=ONBOARD, seed=4, wind_n=np.array([4.0, -2.0, 0.0]))))
     pilot.until(lambda: pilot.vehicle.flying.why_not_armable(pilot.now_us) is None, 20)
