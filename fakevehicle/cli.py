@@ -10,7 +10,9 @@ from typing import Annotated, NoReturn
 import numpy as np
 import typer
 from rich.console import Console
+from rich.table import Table
 
+from fakevehicle.airframe import load_airframe
 from fakevehicle.config import MAX_LINKS, LinkConfig, VehicleConfig
 from fakevehicle.driver import PX4_LINKS, DriverCounters, LinkPlan, open_links, run
 from fakevehicle.errors import AirframeError, VehicleError
@@ -22,6 +24,11 @@ from wire.udp import UdpLink
 
 REHEARSAL_TICKS = 1000
 """Ticks a throw-away vehicle is run, so that every kernel is compiled before the clock starts."""
+
+STRONGEST_WIND = 60.0
+"""Of --wind [m/s]; a hurricane."""
+SLOWEST, FASTEST = 0.01, 1000.0
+"""Of --speed; how fast it really gets is the machine's to say."""
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
@@ -46,16 +53,24 @@ def fly(
     ] = "0,0,0",
     seed: Annotated[int, typer.Option(help="Of every random number.")] = 1,
     param: Annotated[list[str] | None, typer.Option("--param", metavar="NAME=VALUE", help="Set a parameter.")] = None,
-    speed: Annotated[float, typer.Option(help="Simulated seconds in one second.")] = 1.0,
+    speed: Annotated[
+        float, typer.Option(help="Simulated seconds in one second; a companion in real time needs 1.")
+    ] = 1.0,
+    list_params: Annotated[
+        bool, typer.Option("--list-params", help="Print every parameter with range, unit and meaning, and end.")
+    ] = False,
 ) -> None:
     """A simulated PX4 quadrotor that speaks MAVLink over UDP.
 
     Without --connect it sends to 127.0.0.1:14550 (ground station) and 127.0.0.1:14540 (companion), as PX4 does.
     """
+    if list_params:
+        _list_parameters()
+        return
     try:
         plans = _plans(connect or [])
-        if not (math.isfinite(speed) and speed > 0.0):
-            raise ValueError(f"--speed {speed}: expected more than 0")
+        if not SLOWEST <= speed <= FASTEST:
+            raise ValueError(f"--speed {speed:g}: expected {SLOWEST:g} to {FASTEST:g}")
         place, heading = _home(home)
         config = VehicleConfig(
             airframe=airframe,
@@ -67,6 +82,9 @@ def fly(
             start_unix_us=time.time_ns() // 1000,
         )
         parameters = dict(_parameter(text) for text in param or [])
+        load_airframe(airframe)
+    except AirframeError as error:
+        _fail(f"--airframe {airframe}: {error}", 2)
     except (ValueError, EndpointError) as error:
         _fail(str(error), 2)
     try:
@@ -75,8 +93,6 @@ def fly(
         _fail(str(error), 1)
     try:
         counters = _fly(config, parameters, plans, links, speed)
-    except AirframeError as error:
-        _fail(f"--airframe {airframe}: {error}", 2)
     except VehicleError as error:
         _fail(str(error), 1)
     finally:
@@ -151,12 +167,17 @@ def _home(text: str) -> tuple[Geodetic, float]:
     latitude, longitude, altitude, heading = _numbers("--home", text, "LAT,LON,ALT,HEADING")
     if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0):
         raise ValueError(f"--home {text}: latitude or longitude is not on the globe")
+    if not -500.0 <= altitude <= 10_000.0 or abs(heading) > 360.0:
+        raise ValueError(f"--home {text}: expected an altitude of -500..10000 m and a heading of -360..360 degrees")
     return Geodetic(math.radians(latitude), math.radians(longitude), altitude), math.radians(heading)
 
 
 def _wind(text: str) -> FloatArray:
     """(3,) [m/s]."""
-    return np.array(_numbers("--wind", text, "N,E,D"))
+    wind = np.array(_numbers("--wind", text, "N,E,D"))
+    if np.abs(wind).max() > STRONGEST_WIND:
+        raise ValueError(f"--wind {text}: expected at most {STRONGEST_WIND:g} m/s on an axis")
+    return wind
 
 
 def _parameter(text: str) -> tuple[str, float]:
@@ -172,6 +193,14 @@ def _parameter(text: str) -> tuple[str, float]:
         return name, float(known[name].coerced(float(value)))
     except ValueError as error:
         raise ValueError(f"--param {text}: {error}") from error
+
+
+def _list_parameters() -> None:
+    """A table of every parameter."""
+    table = Table("parameter", "default", "range", "unit", "meaning")
+    for p in sorted(PARAMETERS, key=lambda p: p.name):
+        table.add_row(p.name, f"{p.default:g}", f"{p.minimum:g}..{p.maximum:g}", p.unit, p.description)
+    Console().print(table)
 
 
 def _route(plan: LinkPlan, link: UdpLink) -> str:

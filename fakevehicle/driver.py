@@ -17,6 +17,8 @@ from wire.datagram import Address, Datagram
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink, wait
 
+LONGEST_SLEEP_S = 0.1
+"""However slow the simulation, whether to stop is asked at least this often."""
 MAX_BACKLOG_S = 0.25
 
 
@@ -104,6 +106,9 @@ def run(
     deadline_s = time.monotonic()
     while not stopped():
         behind_s = time.monotonic() - deadline_s
+        if behind_s < -LONGEST_SLEEP_S:
+            wait((), LONGEST_SLEEP_S)
+            continue
         if behind_s < 0.0:
             wait((), -behind_s)
         elif behind_s > period_s:
