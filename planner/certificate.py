@@ -58,7 +58,7 @@ def prove(
     c = np.empty(3)
     for piece in range(pieces.shape[0]):  # points on the curve, so that few pieces are cut finer than they need to be
         for o in range(solids.shape[0]):
-            d, _, _, _ = solid_distance(solids[o], pieces[piece, 0, 0], pieces[piece, 0, 1], pieces[piece, 0, 2])
+            d, _, _, _ = solid_distance(solids, o, pieces[piece, 0, 0], pieces[piece, 0, 1], pieces[piece, 0, 2])
             seen = min(seen, d)
     for first in range(pieces.shape[0]):
         stack[0] = pieces[first]
@@ -80,7 +80,7 @@ def prove(
             reach = math.sqrt(reach)
             low = np.inf
             for o in range(solids.shape[0]):
-                d, g0, g1, g2 = solid_distance(solids[o], c[0], c[1], c[2])
+                d, g0, g1, g2 = solid_distance(solids, o, c[0], c[1], c[2])
                 seen = min(seen, d)
                 if d - reach >= low:
                     continue
@@ -111,10 +111,7 @@ def prove(
 
 def margin(world: World) -> float:
     """What rounding may cost in a world [m]: MARGIN times its largest coordinate, and never less than MARGIN."""
-    largest = max(1.0, float(np.abs(world.walls).max()))
-    if len(world.solids):
-        largest = max(largest, float(np.abs(world.solids[:, 1:]).max()))
-    return MARGIN * largest
+    return MARGIN * max(1.0, world.largest)
 
 
 def needed(world: World, radius: float) -> float:

@@ -175,34 +175,36 @@ def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
 @kernel
 def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Obstacle term of the free control points x (3 f,), gradient added to (3 f,)."""
-    f, c, grid, sample, points, slopes = p.energy.shape[0], p.reach, p.grid, p.sample, p.points, p.slopes
-    nx, ny, nz = grid.shape[0], grid.shape[1], grid.shape[2]
+    # Everything by its own name: a field of a field, or a row of an array, costs more than the arithmetic on it.
+    f, c, b, sample, points, slopes = p.energy.shape[0], p.reach, p.basis, p.sample, p.points, p.slopes
+    solids, walls, starts, items, per_metre = p.solids, p.walls, p.grid.starts, p.grid.items, p.grid.per_metre
+    nx, ny, nz = p.grid.shape[0], p.grid.shape[1], p.grid.shape[2]
+    x0, y0, z0 = p.grid.origin[0], p.grid.origin[1], p.grid.origin[2]
     for i in range(f):
         for a in range(3):
             points[FIXED + i, a] = x[3 * i + a]
     slopes[:, :] = 0.0
     total = 0.0
-    for span in range(p.basis.shape[0]):
-        b = p.basis[span]
+    for span in range(b.shape[0]):
         near_wall = False
         for a in range(3):
             p0, p1, p2, p3 = points[span, a], points[span + 1, a], points[span + 2, a], points[span + 3, a]
             for s in range(SAMPLES):
-                sample[a, s] = b[0, s] * p0 + b[1, s] * p1 + b[2, s] * p2 + b[3, s] * p3
-            if min(min(p0, p1), min(p2, p3)) < p.walls[0, a] + c or max(max(p0, p1), max(p2, p3)) > p.walls[1, a] - c:
+                sample[a, s] = b[span, 0, s] * p0 + b[span, 1, s] * p1 + b[span, 2, s] * p2 + b[span, 3, s] * p3
+            if min(min(p0, p1), min(p2, p3)) < walls[0, a] + c or max(max(p0, p1), max(p2, p3)) > walls[1, a] - c:
                 near_wall = True  # a hull clear of the walls is a span clear of them
         for s in range(SAMPLES):
             px, py, pz = sample[0, s], sample[1, s], sample[2, s]
-            ix = min(max(int((px - grid.origin[0]) * grid.per_metre), 0), nx - 1)
-            iy = min(max(int((py - grid.origin[1]) * grid.per_metre), 0), ny - 1)
-            iz = min(max(int((pz - grid.origin[2]) * grid.per_metre), 0), nz - 1)
+            ix = min(max(int((px - x0) * per_metre), 0), nx - 1)
+            iy = min(max(int((py - y0) * per_metre), 0), ny - 1)
+            iz = min(max(int((pz - z0) * per_metre), 0), nz - 1)
             cell = (ix * ny + iy) * nz + iz
-            first, end = grid.starts[cell], grid.starts[cell + 1]
+            first, end = starts[cell], starts[cell + 1]
             if first == end and not near_wall:
                 continue
             fx, fy, fz = 0.0, 0.0, 0.0
             for item in range(first, end):
-                d, gx, gy, gz = solid_distance(p.solids[grid.items[item]], px, py, pz)
+                d, gx, gy, gz = solid_distance(solids, items[item], px, py, pz)
                 if d < c:
                     h, dh = hinge(c - d, c)  # Eq. 39, one solid
                     total += h
@@ -213,12 +215,12 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
                 for a in range(3):
                     v = sample[a, s]
                     push = 0.0
-                    if v < p.walls[0, a] + c:
-                        h, dh = hinge(p.walls[0, a] + c - v, c)
+                    if v < walls[0, a] + c:
+                        h, dh = hinge(walls[0, a] + c - v, c)
                         total += h
                         push -= dh
-                    if v > p.walls[1, a] - c:
-                        h, dh = hinge(v - p.walls[1, a] + c, c)
+                    if v > walls[1, a] - c:
+                        h, dh = hinge(v - walls[1, a] + c, c)
                         total += h
                         push += dh
                     if a == 0:
@@ -228,9 +230,9 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
                     else:
                         fz += push
             for q in range(4):
-                slopes[span + q, 0] += b[q, s] * fx
-                slopes[span + q, 1] += b[q, s] * fy
-                slopes[span + q, 2] += b[q, s] * fz
+                slopes[span + q, 0] += b[span, q, s] * fx
+                slopes[span + q, 1] += b[span, q, s] * fy
+                slopes[span + q, 2] += b[span, q, s] * fz
     for i in range(f):
         for a in range(3):
             gradient[3 * i + a] += p.scale * slopes[FIXED + i, a]
@@ -281,6 +283,7 @@ class SplineCost:
         self.world, self.reach, self.weight = world, reach, weight
         self.ends = np.array([start, goal], dtype=np.float64)
         shape = _Shape.of(n)
+        self.knots = shape.knots  # (n + 4,) on [0, 1]
         straight = float(np.linalg.norm(self.ends[1] - self.ends[0]))
         self.distance = max(straight if length is None else length, SHORTEST)
         m = min(limits.speed**2 / limits.acceleration, self.distance, softest)
@@ -296,7 +299,7 @@ class SplineCost:
         self.problem = Problem(
             energy=np.ascontiguousarray(whole[free, free]),
             linear=linear,
-            constant=float(np.einsum("ia,ij,ja->", ends, whole, ends)),
+            constant=float((ends * (whole @ ends)).sum()),
             origin=self.ends[0],
             relative=np.zeros(self.size),
             basis=shape.basis,
@@ -329,12 +332,12 @@ class SplineCost:
     def stretch(self, x: FloatArray) -> float:
         """J_stretch [m], from the quadratic form on all control points."""
         points = self.control_points(x) - self.ends[0]
-        return float(np.einsum("ia,ij,ja->", points, self._stretch, points))
+        return float((points * (self._stretch @ points)).sum())
 
     def smoothness(self, x: FloatArray) -> float:
         """J_smooth [m], from the quadratic form on all control points."""
         points = self.control_points(x) - self.ends[0]
-        return float(np.einsum("ia,ij,ja->", points, self._smooth, points))
+        return float((points * (self._smooth @ points)).sum())
 
     def obstacle(self, x: FloatArray) -> float:
         """J_obstacle [m]."""
@@ -351,7 +354,7 @@ class _Shape:
     _kept: "dict[int, _Shape]" = {}  # noqa: RUF012 a cache of pure values, keyed by n
 
     def __init__(self, n: int) -> None:
-        knots = clamped_knots(n)
+        self.knots = knots = clamped_knots(n)
         spans = n - DEGREE
         u = (np.arange(spans * SAMPLES) + 0.5) / (spans * SAMPLES)
         full = basis(knots, n, u).reshape(spans, SAMPLES, n)

@@ -25,12 +25,15 @@ WIDTH = 7
 
 
 @kernel
-def solid_distance(s: FloatArray, x: float, y: float, z: float) -> tuple[float, float, float, float]:
-    """(d, gx, gy, gz): signed distance [m] from a point to solid `s` and its unit (sub)gradient."""
-    dx, dy, dz = x - s[1], y - s[2], z - s[3]
-    if s[0] == BOX:
+def solid_distance(solids: FloatArray, k: int, x: float, y: float, z: float) -> tuple[float, float, float, float]:
+    """(d, gx, gy, gz): signed distance [m] from a point to row k of `solids` and its unit (sub)gradient.
+
+    The table and an index rather than the row: numba counts references to a row, which takes thrice the arithmetic.
+    """
+    dx, dy, dz = x - solids[k, 1], y - solids[k, 2], z - solids[k, 3]
+    if solids[k, 0] == BOX:
         sx, sy, sz = math.copysign(1.0, dx), math.copysign(1.0, dy), math.copysign(1.0, dz)
-        qx, qy, qz = abs(dx) - s[4], abs(dy) - s[5], abs(dz) - s[6]
+        qx, qy, qz = abs(dx) - solids[k, 4], abs(dy) - solids[k, 5], abs(dz) - solids[k, 6]
         if qx <= 0.0 and qy <= 0.0 and qz <= 0.0:  # inside: the nearest face
             if qx >= qy and qx >= qz:
                 return qx, sx, 0.0, 0.0
@@ -40,11 +43,11 @@ def solid_distance(s: FloatArray, x: float, y: float, z: float) -> tuple[float, 
         qx, qy, qz = max(qx, 0.0), max(qy, 0.0), max(qz, 0.0)
         d = math.sqrt(qx * qx + qy * qy + qz * qz)
         return d, sx * qx / d, sy * qy / d, sz * qz / d
-    if s[0] == CYLINDER:
+    if solids[k, 0] == CYLINDER:
         rho = math.sqrt(dx * dx + dy * dy)
         ux, uy = (dx / rho, dy / rho) if rho > 0.0 else (1.0, 0.0)  # on the axis any direction is a subgradient
         sz = math.copysign(1.0, dz)
-        qr, qz = rho - s[4], abs(dz) - s[5]
+        qr, qz = rho - solids[k, 4], abs(dz) - solids[k, 5]
         if qr > 0.0 and qz > 0.0:  # beyond the rim
             d = math.sqrt(qr * qr + qz * qz)
             return d, ux * qr / d, uy * qr / d, sz * qz / d
@@ -53,8 +56,8 @@ def solid_distance(s: FloatArray, x: float, y: float, z: float) -> tuple[float, 
         return qz, 0.0, 0.0, sz
     r = math.sqrt(dx * dx + dy * dy + dz * dz)
     if r > 0.0:
-        return r - s[4], dx / r, dy / r, dz / r
-    return -s[4], 1.0, 0.0, 0.0
+        return r - solids[k, 4], dx / r, dy / r, dz / r
+    return -solids[k, 4], 1.0, 0.0, 0.0
 
 
 @kernel
@@ -62,7 +65,7 @@ def nearest_solid(solids: FloatArray, x: float, y: float, z: float) -> tuple[flo
     """(d, index) of the solid with the least signed distance; (inf, -1) when there is none."""
     least, index = np.inf, -1
     for k in range(solids.shape[0]):
-        d, _, _, _ = solid_distance(solids[k], x, y, z)
+        d, _, _, _ = solid_distance(solids, k, x, y, z)
         if d < least:
             least, index = d, k
     return least, index
@@ -75,6 +78,6 @@ def least_distances(solids: FloatArray, points: FloatArray, distances: FloatArra
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
         distances[i], k = nearest_solid(solids, x, y, z)
         if k >= 0:
-            _, gradients[i, 0], gradients[i, 1], gradients[i, 2] = solid_distance(solids[k], x, y, z)
+            _, gradients[i, 0], gradients[i, 1], gradients[i, 2] = solid_distance(solids, k, x, y, z)
         else:
             gradients[i, :] = 0.0

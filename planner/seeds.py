@@ -71,17 +71,14 @@ def fan(
         if k in (SIDE // 2 - 1, SIDE - 1):
             offsets += [sides[j][0] * sides[j][1] * (k + 1) / SIDE for j in (2, 3)]
     bow = np.sin(np.pi * s)
-    seeds = [line + bow[:, None] * offset for offset in offsets[:count]]
+    bows = line + bow[:, None] * np.array(offsets[:count])[:, None, :]  # (bows, f, 3)
     modes = np.sin(np.pi * np.arange(1, MODES + 1)[:, None] * s)  # (MODES, f)
     fall = 1.0 / np.arange(1, MODES + 1)
-    while len(seeds) < count:
-        level, upward = generator.standard_normal((2, MODES)) * fall
-        seeds.append(
-            line
-            + 0.5 * max(sides[0][1], sides[1][1]) * np.outer(level @ modes, e2)
-            + 0.5 * max(sides[2][1], sides[3][1]) * np.outer(upward @ modes, e3)
-        )
-    return np.clip(np.array(seeds), lower, upper).reshape(count, 3 * f)
+    waves = generator.standard_normal((count - len(bows), 2, MODES)) * fall @ modes  # (others, 2, f)
+    room = 0.5 * np.array([max(sides[0][1], sides[1][1]), max(sides[2][1], sides[3][1])])
+    others = line + np.einsum("sef,ea->sfa", waves, room[:, None] * np.array([e2, e3]))
+    seeds: FloatArray = np.clip(np.concatenate([bows, others]), lower, upper).reshape(count, 3 * f)
+    return seeds
 
 
 def along_path(path: FloatArray, n: int) -> FloatArray:

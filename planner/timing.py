@@ -35,7 +35,7 @@ def uniform_scaling(control_points: FloatArray, limits: Limits) -> FloatArray:
         (unit.acceleration / limits.acceleration) ** 0.5,
         (unit.jerk / limits.jerk) ** (1.0 / 3.0),
         SHORTEST,
-    )
+    ) * (1.0 + _ROUNDING)  # most often enough
     while True:
         knots = clamped_knots(n, duration)
         if within(control_points, knots, limits):

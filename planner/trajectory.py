@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from planner.bspline import DEGREE, FloatArray, arc_length, check_knots, evaluate
+from planner.bspline import DEGREE, FloatArray, arc_length, check_knots, derivative_control_points, evaluate
 from planner.errors import KnotError
 
 Polynomial = tuple[tuple[float, float, float, float], ...]  # one row an axis: x, x', x''/2, x'''/6 at the span's start
@@ -59,9 +59,12 @@ class Trajectory:
         if knots[0] != 0.0:
             raise KnotError(f"a trajectory starts at 0 s, found first knot {knots[0]:g}")
         starts = knots[DEGREE : len(points)]
-        table = np.stack(
-            [evaluate(points, knots, starts, derivative=k) / math.factorial(k) for k in range(DEGREE + 1)], axis=2
-        )
+        table = np.empty((len(starts), 3, DEGREE + 1))
+        p, u = points, knots
+        for k in range(DEGREE + 1):
+            table[:, :, k] = evaluate(p, u, starts, DEGREE - k) / math.factorial(k)
+            if k < DEGREE:
+                p, u = derivative_control_points(p, u, DEGREE - k), u[1:-1]
         for name, value in (("control_points", points), ("knots", knots), ("_table", table)):
             object.__setattr__(self, name, value)
         object.__setattr__(self, "_starts", tuple(starts.tolist()))

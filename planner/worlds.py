@@ -107,6 +107,7 @@ class World:
     obstacles: Sequence[Obstacle] = ()  # kept as a tuple
     solids: FloatArray = field(init=False, repr=False, compare=False)  # (k, 7) rows for the kernels
     walls: FloatArray = field(init=False, repr=False, compare=False)  # (2, 3) the bounds as an array
+    largest: float = field(init=False, repr=False, compare=False)  # absolute coordinate or size of all these [m]
 
     def __post_init__(self) -> None:
         low, high = self.bounds
@@ -122,6 +123,8 @@ class World:
         rows = [o.packed() for o in self.obstacles]
         object.__setattr__(self, "solids", np.array(rows, dtype=np.float64).reshape(-1, distance.WIDTH))
         object.__setattr__(self, "walls", np.array([low, high], dtype=np.float64))
+        largest = max(np.abs(self.walls).max(), np.abs(self.solids[:, 1:]).max(initial=0.0))
+        object.__setattr__(self, "largest", float(largest))
 
     def distance(self, points: FloatArray) -> FloatArray:
         """Signed distance (m,) [m] of points (m, 3) to the nearest obstacle, negative inside; inf without any."""
