@@ -77,7 +77,7 @@ class Evaluator:
         beside = points[:, None, :] + h[:, :, None] * np.eye(dim)
         h = beside[:, np.arange(dim), np.arange(dim)] - points  # what the sum really made of it
         values = self.costs(np.concatenate([points[:, None, :], beside], axis=1).reshape(-1, dim)).reshape(n, dim + 1)
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):
             gradients = (values[:, 1:] - values[:, :1]) / h
         return values[:, 0], self._clean(values[:, 0], gradients)
 

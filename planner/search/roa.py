@@ -101,7 +101,7 @@ def direction(costs: FloatArray) -> FloatArray:
             best, worst = min(best, cost), max(worst, cost)
     found = np.empty(costs.shape[0])
     for i in range(costs.shape[0]):
-        success = (worst - costs[i]) / (worst - best) if worst > best else 1.0
+        success = (worst / 2 - costs[i] / 2) / (worst / 2 - best / 2) if worst > best else 1.0  # halves do not overflow
         success = max(success, _LEAST_SUCCESS) if math.isfinite(costs[i]) else _LEAST_SUCCESS
         found[i] = 2.0 / (1.0 - math.log(success)) - 1.0
     return found

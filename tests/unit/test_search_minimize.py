@@ -117,6 +117,19 @@ def test_holes_in_a_function_are_walked_around_and_counted(method: str, hole: fl
 
 
 @pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("mode", list(Mode))
+def test_flat_stepped_and_enormous_functions_in_one_dimension_do_no_harm(method: str, mode: str) -> None:
+    def least(fun, bound=(-5.0, 5.0)) -> OptimizeResult:
+        return minimize(lambda x: float(fun(x[0])), [bound], method=method, mode=mode, maxiter=50)
+
+    assert least(lambda x: 3.0).fun == 3.0
+    assert least(lambda x: np.floor(abs(x - 1.5))).fun == 0.0
+    assert least(lambda x: 1.7e308 * np.sin(x)).fun == pytest.approx(-1.7e308, rel=0.1)
+    assert least(lambda x: (x / 1e149) ** 2, (-1e150, 3e150)).fun < 1.0
+    assert least(lambda x: (x - 1.0) ** 2, (1 - 1e-12, 1 + 1e-12)).fun < 1e-24
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_a_function_that_is_nowhere_a_number_is_no_success(method: str) -> None:
     result = minimize(lambda x: np.nan, BOX, method=method, maxiter=5)
     assert (result.success, result.status, result.fun) == (False, 1, np.inf)
@@ -175,6 +188,7 @@ def test_a_minimum_on_the_bounds_is_found_there() -> None:
     [
         ({"bounds": [(0, 1), (2, 1)]}, r"bounds\[1\]"),
         ({"bounds": [(0, 1), (0, np.inf)]}, r"bounds\[1\]"),
+        ({"bounds": [(0, 1), (-1e308, 1e308)]}, r"bounds\[1\]"),
         ({"bounds": [(np.nan, 1)]}, r"bounds\[0\]"),
         ({"bounds": [(0, 1), (1, 2, 3)]}, r"bounds\[1\]"),
         ({"bounds": [(0, 1), 3]}, r"bounds\[1\]"),
