@@ -89,8 +89,8 @@ def evaluate(
     for _ in range(derivative):
         control_points = derivative_control_points(control_points, knots, degree)
         knots, degree = knots[1:-1], degree - 1
-    u = np.clip(np.atleast_1d(times), knots[degree], knots[-degree - 1])
-    k = np.clip(np.searchsorted(knots, u, side="right") - 1, degree, len(control_points) - 1)
+    u = np.minimum(np.maximum(times.reshape(-1), knots[degree]), knots[-degree - 1])
+    k = np.minimum(np.maximum(knots.searchsorted(u, side="right") - 1, degree), len(control_points) - 1)
     d = control_points[k[:, None] + np.arange(-degree, 1)]  # (m, p + 1, d): the points this piece is made of
     for r in range(1, degree + 1):
         for j in range(degree, r - 1, -1):
@@ -130,7 +130,7 @@ def derivative_control_points(control_points: FloatArray, knots: FloatArray, deg
     spacing = knots[degree + 1 : degree + n] - knots[1:n]
     if (spacing <= 0).any():
         raise KnotError(f"an interior knot repeats more than {degree} times")
-    return degree * np.diff(control_points, axis=0) / spacing[:, None]
+    return degree * (control_points[1:] - control_points[:-1]) / spacing[:, None]
 
 
 def basis(knots: FloatArray, n: int, t: ArrayLike, degree: int = DEGREE, derivative: int = 0) -> FloatArray:
@@ -210,7 +210,7 @@ def arc_length(control_points: FloatArray, knots: FloatArray) -> float:
     the span, and is far below 1e-6 m for the curves planned here.
     """
     nodes, weights = _GAUSS
-    breaks = np.unique(knots)
-    half = np.diff(breaks)[:, None] / 2
+    breaks = knots[DEGREE:-DEGREE]
+    half = (breaks[1:] - breaks[:-1])[:, None] / 2
     velocity = evaluate(control_points, knots, (breaks[:-1, None] + half * (1 + nodes)).ravel(), derivative=1)
     return float(((half * weights).ravel() * np.sqrt((velocity**2).sum(axis=1))).sum())

@@ -31,9 +31,12 @@ def plane_frame(start: FloatArray, goal: FloatArray) -> FloatArray:
 
 def _room(point: FloatArray, direction: FloatArray, lower: FloatArray, upper: FloatArray) -> float:
     """How far one can go from a point inside a box along a unit direction."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ways = np.where(direction > 0, (upper - point) / direction, (lower - point) / direction)
-    return max(float(np.min(ways[np.abs(direction) > 1e-9])), 0.0)
+    ways = [
+        ((upper[a] if direction[a] > 0 else lower[a]) - point[a]) / direction[a]
+        for a in range(3)
+        if abs(direction[a]) > 1e-9
+    ]
+    return max(float(min(ways)), 0.0)
 
 
 def fan(
