@@ -27,7 +27,7 @@ format: $(STAMP) ## rewrite the sources in the one format
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: $(STAMP)  ## benchmarks: figures and ratios, minutes
+bench: $(STAMP)  ## benchmarks: figures and ratios, about six minutes
 	$(BIN)/python -m benchmarks
 
 pin: $(STAMP)    ## write constraints.txt from what is installed now
