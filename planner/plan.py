@@ -21,7 +21,8 @@ from planner.descent import polish, search
 from planner.distance import nearest_solid
 from planner.guide import guide
 from planner.limits import Limits
-from planner.search.haoaroa import POPULATION, Haoaroa
+from planner.search.asktell import POPULATION
+from planner.search.haoaroa import Haoaroa
 from planner.seeds import along_path, fan
 from planner.stopwatch import Stopwatch
 from planner.timing import uniform_scaling, within

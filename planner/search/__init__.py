@@ -6,9 +6,9 @@ comes from the numpy Generator passed in, and budgets count evaluations.
 """
 
 from planner.search.aoa import Aoa
-from planner.search.asktell import AskTell, Mode
+from planner.search.asktell import AskTell, Best, Mode
 from planner.search.functions import BENCHMARKS, Benchmark
-from planner.search.haoaroa import Best, Haoaroa
+from planner.search.haoaroa import Haoaroa
 from planner.search.hybrids import HaoaroaCanonical, HaoaroaLiteral
 from planner.search.minimize import SEARCHES, minimize
 from planner.search.roa import Roa

@@ -40,8 +40,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.jit import kernel
-from planner.search.asktell import AskTell, Mode
-from planner.search.haoaroa import ITERATIONS, POPULATION, Best
+from planner.search.asktell import ITERATIONS, POPULATION, AskTell, Best, Mode
 
 FloatArray = NDArray[np.float64]
 

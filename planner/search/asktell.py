@@ -4,8 +4,7 @@
         optimiser.tell(cost(optimiser.ask()))
     optimiser.best
 
-An optimiser proposes candidates and is told their costs; it never calls the cost. `haoaroa.Haoaroa` has this shape too,
-and a body of its own, since a planning loop is fused around it.
+An optimiser proposes candidates and is told their costs; it never calls the cost.
 
 Modes, with what they are true to:
     LITERAL            the equations as printed, nothing added
@@ -15,15 +14,16 @@ Modes, with what they are true to:
 """
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.search.haoaroa import ITERATIONS, POPULATION, Best
-
 FloatArray = NDArray[np.float64]
 
+POPULATION, ITERATIONS = 20, 100
+"""The paper's."""
 FEWEST = 4
 """Candidates, so that each rider group has one."""
 
@@ -34,6 +34,14 @@ class Mode(StrEnum):
     LITERAL = "literal"
     CANONICAL = "canonical"
     SHIFT_INVARIANT = "shift_invariant"
+
+
+@dataclass(frozen=True, slots=True)
+class Best:
+    """The best candidate told so far."""
+
+    position: FloatArray  # (n_dim,)
+    cost: float
 
 
 class AskTell(ABC):

@@ -34,18 +34,16 @@ which calls `move` itself (see `planner.descent`) make the same moves from the s
 """
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.jit import kernel
+from planner.search.asktell import ITERATIONS, POPULATION, AskTell, Best
 
 FloatArray = NDArray[np.float64]
 
-POPULATION = 20
-ITERATIONS = 100
 C1, C2 = 2.0, 1.5
 _AOA_C1, _AOA_C2, _AOA_C3, _AOA_C4 = 2.0, 6.0, 2.0, 0.5  # Hashim 2021, C3 of 1..2 and C4 of 0.5..2
 _GROUPS = 4
@@ -152,28 +150,12 @@ def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: 
                 x[k], v[k] = p.upper[k], 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Best:
-    """The best candidate told so far."""
+class Haoaroa(AskTell):
+    """HAOAROA; parameters and errors as `AskTell`. `initial` are the first candidates of Eq. 43.
 
-    position: FloatArray  # (n_dim,)
-    cost: float
-
-
-class Haoaroa:
-    """Ask/tell HAOAROA. `ask` gives candidates (n_pop, n_dim), `tell` takes their costs and, if known, gradients.
-
-    Parameters
+    Attributes
     ----------
-    lower, upper : (n_dim,)         bounds, finite, lower < upper.
-    generator : numpy Generator     the only source of chance.
-    initial : (m, n_dim) or None    first candidates (Eq. 43), clipped to the bounds; the rest are uniform in them.
-    step : float                    first length of the gradient step, in units of the candidates.
-    budget : int                    evaluations; the last iteration is the last one that fits.
-
-    Raises
-    ------
-    ValueError : bounds or shapes that do not fit, a cost that is NaN, or more iterations than the budget pays for.
+    population : all that one iteration hands to the next.
     """
 
     def __init__(
@@ -186,42 +168,26 @@ class Haoaroa:
         budget: int = POPULATION * ITERATIONS,
         step: float = 0.1,
     ) -> None:
-        low, high = np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64)
-        if low.ndim != 1 or low.shape != high.shape or not (np.isfinite(low) & np.isfinite(high) & (low < high)).all():
-            raise ValueError("bounds: expected two finite vectors of one length with lower < upper")
-        if population < _GROUPS or budget < population:
-            raise ValueError(f"expected a population of at least {_GROUPS} and a budget that pays for it once")
-        n_dim = len(low)
-        positions = low + (high - low) * generator.random((population, n_dim))
-        if initial is not None:
-            rows = np.asarray(initial, dtype=np.float64)[:population]
-            positions[: len(rows)] = np.clip(rows, low, high)
-        self.iteration, self.iterations = 0, budget // population
-        self.evaluations = 0
-        self._generator = generator
+        super().__init__(lower, upper, generator, initial, population, budget, step)
+        shape = self.first.shape
         self.population = Population(
-            positions=positions,
-            velocities=np.zeros((population, n_dim)),
-            gradients=np.zeros((population, n_dim)),
+            positions=self.first,
+            velocities=np.zeros(shape),
+            gradients=np.zeros(shape),
             costs=np.full(population, np.inf),
             previous=np.full(population, np.inf),
-            best_positions=positions.copy(),
+            best_positions=self.first.copy(),
             best_costs=np.full(population, np.inf),
-            steps=np.full(population, float(step) / 1.2),  # the first evaluation improves on infinity
+            steps=self.steps / 1.2,  # the first evaluation improves on infinity
             traits=0.1 + 0.9 * generator.random((population, 3)),
-            lower=low,
-            upper=high,
+            lower=self.lower,
+            upper=self.upper,
         )
-
-    @property
-    def done(self) -> bool:
-        """Whether the budget is spent."""
-        return self.iteration >= self.iterations
 
     def uniforms(self, count: int) -> FloatArray:
         """Random numbers of the next `count` iterations, (count, n_pop, draws); they are then used up."""
         n_pop, n_dim = self.population.positions.shape
-        return self._generator.random((count, n_pop, draws(n_dim)))
+        return self.generator.random((count, n_pop, draws(n_dim)))
 
     def advance(self, iterations: int) -> None:
         """Count iterations that a fused loop has made on `population`."""
@@ -232,19 +198,12 @@ class Haoaroa:
         """The candidates to evaluate (n_pop, n_dim), a copy."""
         return self.population.positions.copy()
 
-    def tell(self, costs: FloatArray, gradients: FloatArray | None = None) -> None:
-        """Take the costs (n_pop,) and gradients (n_pop, n_dim) of the candidates asked for, and move on."""
+    def _move(self, costs: FloatArray, gradients: FloatArray | None) -> None:
         p = self.population
-        values = np.asarray(costs, dtype=np.float64)
-        if values.shape != p.costs.shape or np.isnan(values).any():
-            raise ValueError(f"costs: expected {p.costs.shape} numbers, found {values.shape} or NaN")
-        if self.done:
-            raise ValueError(f"the budget of {self.iterations} iterations is spent")
-        p.costs[:] = values
+        p.costs[:] = costs
         p.gradients[:] = 0.0 if gradients is None else gradients
         remember(p)
         move(p, self.iteration + 1, self.iterations, self.uniforms(1)[0], gradients is not None)
-        self.advance(1)
 
     @property
     def best(self) -> Best:

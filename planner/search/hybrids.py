@@ -25,8 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.search.aoa import Aoa
-from planner.search.asktell import AskTell, Mode
-from planner.search.haoaroa import ITERATIONS, POPULATION, Best
+from planner.search.asktell import ITERATIONS, POPULATION, AskTell, Best, Mode
 from planner.search.roa import Roa
 
 FloatArray = NDArray[np.float64]

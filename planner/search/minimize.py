@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from planner.search.aoa import Aoa
-from planner.search.asktell import FEWEST, AskTell, Mode
+from planner.search.asktell import FEWEST, POPULATION, AskTell, Mode
 from planner.search.evaluator import Evaluator, Over
-from planner.search.haoaroa import POPULATION, Haoaroa
+from planner.search.haoaroa import Haoaroa
 from planner.search.hybrids import HaoaroaCanonical, HaoaroaLiteral
 from planner.search.roa import Roa
 
