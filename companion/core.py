@@ -124,7 +124,7 @@ class Companion:
             self._take(now_us, item, out)
         self._report_texts(out)
         if self.phase not in OVER:
-            self._answer_command(out)
+            self._answer_command()
             event = self._event(now_us, out)
             if event is not None:
                 self._move(now_us, event, out)
@@ -161,12 +161,12 @@ class Companion:
             self._vehicle, self._vehicle_peer, self._heard_us = packet.system_id, peer, now_us
         if not self.is_vehicle(packet, peer):
             self.foreign_packets += 1
-            if self._heard_us is not None and packet.system_id == self._vehicle and not self._impostor_told:
-                self._impostor_told = peer != self._vehicle_peer
-                if self._impostor_told:
-                    where = "elsewhere" if peer is None else f"{peer[0]}:{peer[1]}"
-                    text = f"another sender at {where} also calls itself system {self._vehicle}: it is not obeyed"
-                    out.append(Note(Level.WARNING, text))
+            same_name = self._heard_us is not None and packet.system_id == self._vehicle
+            if same_name and peer != self._vehicle_peer and not self._impostor_told:
+                self._impostor_told = True
+                where = "elsewhere" if peer is None else f"{peer[0]}:{peer[1]}"
+                text = f"another sender at {where} also calls itself system {self._vehicle}: it is not obeyed"
+                out.append(Note(Level.WARNING, text))
             return
         self._heard_us = now_us
         self.telemetry.take(now_us, packet, self._mav)
@@ -205,7 +205,7 @@ class Companion:
             out.append(Note(level, f"vehicle: {text}"))
         self.telemetry.texts.clear()
 
-    def _answer_command(self, out: list[Output]) -> None:
+    def _answer_command(self) -> None:
         for ack in self.telemetry.acks:
             if self._command is not None:
                 self._command.answered(ack)

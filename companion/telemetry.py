@@ -44,7 +44,7 @@ class Telemetry:
     landed_state: int = 0  # MAV_LANDED_STATE
     prearm_ok: bool = False  # SYS_STATUS: every pre-arm check passes
     estimator_flags: int | None = None  # ESTIMATOR_STATUS_FLAGS
-    rejected: list[tuple[str, float]] = field(default_factory=list)  # innovations outside their gate, with the ratio
+    rejected: list[str] = field(default_factory=list)  # whose innovation is outside its gate
     parameters: dict[str, bytes] = field(default_factory=dict)  # the raw four bytes of param_value, for those asked for
     acks: list[Ack] = field(default_factory=list)  # taken and emptied once a tick
     texts: list[tuple[int, str]] = field(default_factory=list)  # (severity, text) of STATUSTEXT, likewise
@@ -93,7 +93,7 @@ class Telemetry:
             "height": m.pos_vert_ratio,
             "magnetometer": m.mag_ratio,
         }
-        self.rejected = [(name, ratio) for name, ratio in ratios.items() if ratio > 1.0]
+        self.rejected = [name for name, ratio in ratios.items() if ratio > 1.0]
 
     def _command_ack(self, now_us: int, m: Any) -> None:
         if len(self.acks) < 64:

@@ -44,11 +44,8 @@ class ErrorStatistics:
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """What plots and verdict are made from; in the mission frame, time in seconds from the first reference."""
+    """What the verdict is made from, in the mission frame."""
 
-    reference_s: FloatArray  # (n,)
-    reference_m: FloatArray  # (n, 3)
-    position_s: FloatArray  # (k,)
     position_m: FloatArray  # (k, 3) truth where there is one, else the estimate
     error: FloatArray  # (k,) [m]
     aloft_m: FloatArray  # (j, 3) the same with the landing, until the vehicle disarmed
@@ -146,11 +143,7 @@ class FlightMeter:
             return None
         at, position = rows[flown, 0], position[flown]
         wanted = np.column_stack([np.interp(at, references[:, 0], references[:, k]) for k in (1, 2, 3)])
-        t0 = references[0, 0]
         return Track(
-            reference_s=(references[:, 0] - t0) / 1e6,
-            reference_m=references[:, 1:],
-            position_s=(at - t0) / 1e6,
             position_m=position,
             error=np.linalg.norm(position - wanted, axis=1),
             aloft_m=aloft,

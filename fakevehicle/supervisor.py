@@ -96,7 +96,6 @@ class Supervisor:
         self._anchor_n: FloatArray = np.zeros(3)
         self._yaw = 0.0
         self._leg: Leg | None = None
-        self._goto: FloatArray | None = None
         self._takeoff_z: float | None = None
         self._descending = False  # RTL has arrived over home
 

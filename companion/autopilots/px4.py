@@ -74,7 +74,7 @@ class Px4:
             reasons.append("armed already")
         if telemetry.landed_state != mavlink.MAV_LANDED_STATE_ON_GROUND:
             reasons.append("not on the ground")
-        reasons.extend(f"estimator rejects {name} (test ratio {ratio:.1f})" for name, ratio in telemetry.rejected)
+        reasons.extend(f"estimator rejects {name}" for name in telemetry.rejected)
         flags = telemetry.estimator_flags
         if flags is None or flags & ESTIMATOR_NEEDED != ESTIMATOR_NEEDED:
             reasons.append("estimator not converged" if flags is not None else "no estimator status")

@@ -24,7 +24,6 @@ class Pace:
     ticks: int
     late: int  # ticks that began more than half a period after their deadline
     missed: int  # periods without a tick, since the one before took too long
-    worst_late_ms: float
 
 
 def fly_realtime(
@@ -41,7 +40,7 @@ def fly_realtime(
     epoch_ns = time.time_ns() - time.monotonic_ns()
     names = {id(link): name for name, link in links.items()}
     sockets = list(links.values())
-    index, late, missed, worst_ns = 0, 0, 0, 0
+    index, late, missed = 0, 0, 0
     deadline_ns = time.monotonic_ns() + period_ns
     while not companion.over and not stop():
         inputs: list[tuple[int, Input]] = []
@@ -52,7 +51,6 @@ def fly_realtime(
                     inputs.append(((got.received_ns + epoch_ns) // 1000, Datagram(name, got.data, got.peer)))
         started_ns = time.monotonic_ns()
         overdue_ns = started_ns - deadline_ns
-        worst_ns = max(worst_ns, overdue_ns)
         late += overdue_ns > period_ns // 2
         now_us = (started_ns + epoch_ns) // 1000
         inputs.extend((now_us, ready) for ready in planning.ready())
@@ -74,4 +72,4 @@ def fly_realtime(
         if behind > 0:  # whole periods were missed: they stay missed
             missed += behind
             deadline_ns += behind * period_ns
-    return Pace(index, late, missed, worst_ns / 1e6)
+    return Pace(index, late, missed)

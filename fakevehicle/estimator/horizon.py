@@ -33,7 +33,6 @@ ALIGN_US = 1_000_000
 """How long the vehicle must stand before the filter starts [us]."""
 STALE_US = 2_000_000
 """A quantity whose sensor has not been accepted for this long is no longer valid [us]."""
-SENSORS = ("gps_position", "gps_velocity", "baro", "mag")
 
 
 @dataclass(frozen=True, slots=True)

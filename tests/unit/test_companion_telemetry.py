@@ -74,3 +74,14 @@ def test_a_parameter_nobody_asked_for_is_not_kept():
     telemetry = Telemetry()
     take(telemetry, mavlink.MAVLink_param_value_message(b"OTHER", 1.0, 9, 1, 0))
     assert not telemetry.parameters
+
+
+def test_what_keeps_a_px4_from_flying_is_told_in_words_that_do_not_change_with_every_sample():
+    telemetry, seen = Telemetry(), set()
+    for ratio in (1.2, 14.4, 3.0):
+        take(telemetry, mavlink.MAVLink_estimator_status_message(0, 0x3F, 0.1, ratio, 0.1, 0.1, 0, 0, 0, 0))
+        take(telemetry, mavlink.MAVLink_extended_sys_state_message(0, mavlink.MAV_LANDED_STATE_IN_AIR))
+        take(telemetry, mavlink.MAVLink_heartbeat_message(2, 12, 0x81, 0x3040000, 4, 3))
+        seen.add(tuple(Px4().not_ready(1_000, telemetry)))
+    (reasons,) = seen
+    assert {"armed already", "not on the ground", "estimator rejects horizontal position"} <= set(reasons)
