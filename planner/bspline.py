@@ -158,6 +158,46 @@ def gram_matrix(knots: FloatArray, n: int, derivative: int, degree: int = DEGREE
 
 
 @kernel
+def refine(control_points: FloatArray, knots: FloatArray, finer: FloatArray) -> FloatArray:
+    """Control points of the same cubic curve, or of a part of it, on other knots.
+
+    A control point is the curve's blossom at its three inner knots, P_i = f(u_{i+1}, u_{i+2}, u_{i+3}) (Ramshaw), taken
+    on a piece of the old spline that the new point has a hand in.
+
+    Parameters
+    ----------
+    control_points : (n, 3)
+    knots : (n + 4,)          clamped, interior knots simple.
+    finer : (m + 4,)          clamped within the old range, every old knot inside its own range among them.
+
+    Returns
+    -------
+    (m, 3)
+    """
+    n, m = control_points.shape[0], finer.shape[0] - 4
+    points = np.empty((m, 3))
+    d = np.empty(4)
+    for i in range(m):
+        j = i
+        while j < i + 3 and not finer[j] < finer[j + 1]:
+            j += 1
+        k = 3
+        while k < n - 1 and knots[k + 1] <= finer[j]:
+            k += 1
+        for axis in range(3):
+            for q in range(4):
+                d[q] = control_points[k - 3 + q, axis]
+            for r in range(1, 4):
+                u = finer[i + r]
+                for q in range(3, r - 1, -1):
+                    left, right = knots[k - 3 + q], knots[k + 1 + q - r]
+                    alpha = (u - left) / (right - left)
+                    d[q] = (1.0 - alpha) * d[q - 1] + alpha * d[q]
+            points[i, axis] = d[3]
+    return points
+
+
+@kernel
 def bezier_pieces(control_points: FloatArray, knots: FloatArray) -> FloatArray:
     """The same cubic curve as Bezier pieces, one per span.
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.bspline import FloatArray, bezier_pieces
-from planner.distance import solid_distance
+from planner.distance import Scene, solid_distance
 from planner.jit import kernel
 from planner.worlds import World
 
@@ -43,13 +43,14 @@ class Certificate:
 
 @kernel
 def prove(
-    pieces: FloatArray, solids: FloatArray, walls: FloatArray, need: float, tolerance: float
+    pieces: FloatArray, scene: Scene, walls: FloatArray, need: float, tolerance: float
 ) -> tuple[float, float, int]:
     """(bound on the distance to solids, bound on the distance to walls, pieces looked at).
 
     A piece is done when its bounds prove `need` and that to solids comes within `tolerance` of the least distance seen
     on the curve itself. Gives up, with both bounds -inf, at the first point of the curve that is nearer than `need`.
     """
+    solids = scene.solids
     stack = np.empty((DEEPEST + 1, 4, 3))
     depth = np.empty(DEEPEST + 1, dtype=np.int64)
     seen, wall_seen = np.inf, np.inf
@@ -138,6 +139,6 @@ def certify(
     """
     pieces = bezier_pieces(control_points, knots)
     tolerance = TOLERANCE if full else np.inf
-    low, wall, looked = prove(pieces, world.solids, world.walls, needed(world, radius), tolerance)
+    low, wall, looked = prove(pieces, world.scene, world.walls, needed(world, radius), tolerance)
     low, wall = low - margin(world), wall - margin(world)
     return Certificate(bool(low >= radius and wall >= radius), low, wall, looked)

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.bspline import DEGREE, FloatArray, basis, clamped_knots, gram_matrix
-from planner.distance import BOX, CYLINDER, solid_distance
+from planner.distance import BOX, CYLINDER, Scene, solid_distance
 from planner.jit import kernel
 from planner.limits import Limits
 from planner.worlds import World
@@ -75,7 +75,7 @@ class Problem(NamedTuple):
     points: FloatArray  # (n, 3) scratch; its ends hold the fixed control points
     slopes: FloatArray  # (n, 3) scratch
     sample: FloatArray  # (3, SAMPLES) scratch
-    solids: FloatArray  # (k, 7)
+    scene: Scene
     walls: FloatArray  # (2, 3)
     grid: Grid
     reach: float  # c [m]
@@ -111,9 +111,9 @@ def _cell_range(s: FloatArray, axis: int, reach: float, grid: Grid) -> tuple[int
 
 
 @kernel
-def fill_grid(solids: FloatArray, reach: float, grid: Grid, counting: bool) -> None:
+def fill_grid(scene: Scene, reach: float, grid: Grid, counting: bool) -> None:
     """Two passes over the same cells: count into `starts` (shifted by one), then write into `items`."""
-    ny, nz = grid.shape[1], grid.shape[2]
+    solids, ny, nz = scene.solids, grid.shape[1], grid.shape[2]
     for k in range(solids.shape[0]):
         x0, x1 = _cell_range(solids[k], 0, reach, grid)
         y0, y1 = _cell_range(solids[k], 1, reach, grid)
@@ -136,10 +136,10 @@ def build_grid(world: World, reach: float) -> Grid:
     shape = np.maximum(np.ceil(extent * per_metre), 1).astype(np.int64)
     starts = np.zeros(int(np.prod(shape)) + 1, dtype=np.int64)
     empty = Grid(world.walls[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64))
-    fill_grid(world.solids, reach, empty, True)
+    fill_grid(world.scene, reach, empty, True)
     ends = np.cumsum(starts)
     grid = empty._replace(starts=ends.copy(), items=np.empty(int(ends[-1]), dtype=np.int64))
-    fill_grid(world.solids, reach, grid, False)
+    fill_grid(world.scene, reach, grid, False)
     return grid._replace(starts=ends)  # the second pass moved each start to its end
 
 
@@ -177,7 +177,7 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Obstacle term of the free control points x (3 f,), gradient added to (3 f,)."""
     # Everything by its own name: a field of a field, or a row of an array, costs more than the arithmetic on it.
     f, c, b, sample, points, slopes = p.energy.shape[0], p.reach, p.basis, p.sample, p.points, p.slopes
-    solids, walls, starts, items, per_metre = p.solids, p.walls, p.grid.starts, p.grid.items, p.grid.per_metre
+    solids, walls, starts, items, per_metre = p.scene.solids, p.walls, p.grid.starts, p.grid.items, p.grid.per_metre
     nx, ny, nz = p.grid.shape[0], p.grid.shape[1], p.grid.shape[2]
     x0, y0, z0 = p.grid.origin[0], p.grid.origin[1], p.grid.origin[2]
     for i in range(f):
@@ -306,7 +306,7 @@ class SplineCost:
             points=points,
             slopes=np.zeros((n, 3)),
             sample=np.zeros((3, SAMPLES)),
-            solids=world.solids,
+            scene=world.scene,
             walls=world.walls,
             grid=build_grid(world, reach) if grid is None else grid,
             reach=reach,

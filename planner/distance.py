@@ -11,6 +11,7 @@ A solid is one row of seven float64:
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,12 @@ FloatArray = NDArray[np.float64]
 BOX, CYLINDER, SPHERE = 0.0, 1.0, 2.0
 WIDTH = 7
 """Numbers a solid takes."""
+
+
+class Scene(NamedTuple):
+    """Everything solid, as the kernels read it."""
+
+    solids: FloatArray  # (k, 7)
 
 
 @kernel
@@ -61,8 +68,9 @@ def solid_distance(solids: FloatArray, k: int, x: float, y: float, z: float) -> 
 
 
 @kernel
-def nearest_solid(solids: FloatArray, x: float, y: float, z: float) -> tuple[float, int]:
+def nearest_solid(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
     """(d, index) of the solid with the least signed distance; (inf, -1) when there is none."""
+    solids = scene.solids
     least, index = np.inf, -1
     for k in range(solids.shape[0]):
         d, _, _, _ = solid_distance(solids, k, x, y, z)
@@ -72,12 +80,12 @@ def nearest_solid(solids: FloatArray, x: float, y: float, z: float) -> tuple[flo
 
 
 @kernel
-def least_distances(solids: FloatArray, points: FloatArray, distances: FloatArray, gradients: FloatArray) -> None:
+def least_distances(scene: Scene, points: FloatArray, distances: FloatArray, gradients: FloatArray) -> None:
     """Write into `distances` (m,) and `gradients` (m, 3) the distance of every point (m, 3) to its nearest solid."""
     for i in range(points.shape[0]):
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        distances[i], k = nearest_solid(solids, x, y, z)
+        distances[i], k = nearest_solid(scene, x, y, z)
         if k >= 0:
-            _, gradients[i, 0], gradients[i, 1], gradients[i, 2] = solid_distance(solids, k, x, y, z)
+            _, gradients[i, 0], gradients[i, 1], gradients[i, 2] = solid_distance(scene.solids, k, x, y, z)
         else:
             gradients[i, :] = 0.0

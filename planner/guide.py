@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.bspline import FloatArray
-from planner.distance import nearest_solid
+from planner.distance import Scene, nearest_solid
 from planner.jit import kernel
 from planner.worlds import World
 
@@ -41,7 +41,7 @@ class Guide:
 
 
 @kernel
-def _free(solids: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bool:
+def _free(scene: Scene, radius: float, a: FloatArray, b: FloatArray) -> bool:
     """Whether the segment from a to b keeps the radius less SLACK / 2.
 
     Sphere marching: the distance is 1-Lipschitz, so from a point that keeps the radius a step of d - radius + SLACK / 2
@@ -51,7 +51,7 @@ def _free(solids: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bo
     t = 0.0
     while True:
         f = t / length if length > 0.0 else 0.0
-        d, _ = nearest_solid(solids, a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2]))
+        d, _ = nearest_solid(scene, a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2]))
         if d < radius:
             return False
         if t >= length:
@@ -61,7 +61,7 @@ def _free(solids: FloatArray, radius: float, a: FloatArray, b: FloatArray) -> bo
 
 @kernel
 def astar(
-    solids: FloatArray,
+    scene: Scene,
     origin: FloatArray,
     step: FloatArray,
     shape: FloatArray,
@@ -106,7 +106,7 @@ def astar(
         for a in range(3):
             here[a] = ends[0, a] if node == begin else origin[a] + (ix, iy, iz)[a] * step[a]
         if math.isnan(distance[node]):
-            distance[node], _ = nearest_solid(solids, here[0], here[1], here[2])
+            distance[node], _ = nearest_solid(scene, here[0], here[1], here[2])
         h0 = math.sqrt(
             ((ix - index[1, 0]) * step[0]) ** 2
             + ((iy - index[1, 1]) * step[1]) ** 2
@@ -127,7 +127,7 @@ def astar(
                     for a in range(3):
                         there[a] = ends[1, a] if other == target else origin[a] + (jx, jy, jz)[a] * step[a]
                     if math.isnan(distance[other]):
-                        distance[other], _ = nearest_solid(solids, there[0], there[1], there[2])
+                        distance[other], _ = nearest_solid(scene, there[0], there[1], there[2])
                     near = min(distance[node], distance[other])
                     keep = min(radius, near - 1e-9) if node == begin or other == target else radius
                     if near < keep:
@@ -136,7 +136,7 @@ def astar(
                     way *= 1.0 + (CAUTION - 1.0) * max(0.0, 1.0 - (near - radius) / BUFFER)
                     if cost[node] + way >= cost[other]:
                         continue
-                    if short and not _free(solids, keep, here, there):
+                    if short and not _free(scene, keep, here, there):
                         continue
                     cost[other], parent[other] = cost[node] + way, node
                     key = cost[other] + math.sqrt(
@@ -168,14 +168,14 @@ def astar(
 
 
 @kernel
-def pull_taut(solids: FloatArray, radius: float, path: FloatArray) -> FloatArray:
+def pull_taut(scene: Scene, radius: float, path: FloatArray) -> FloatArray:
     """The corners (m, 3) left when every point that the one after next can be seen past is dropped."""
     kept = np.empty_like(path)
     kept[0] = path[0]
     count, i, last = 1, 0, path.shape[0] - 1
     while i < last:
         j = i + 1
-        while j < last and _free(solids, radius, path[i], path[j + 1]):
+        while j < last and _free(scene, radius, path[i], path[j + 1]):
             j += 1
         kept[count] = path[j]
         count += 1
@@ -212,8 +212,8 @@ def guide(world: World, start: FloatArray, goal: FloatArray, radius: float) -> G
     for width in widths(high - low):
         shape = np.maximum(np.ceil((high - low) / width), 1.0) + 1.0
         step = np.maximum((high - low) / (shape - 1.0), 1e-9)
-        path = astar(world.solids, low, step, shape, ends, radius + SLACK)
+        path = astar(world.scene, low, step, shape, ends, radius + SLACK)
         if len(path):
             whole = np.concatenate([ends[:1], path[1:-1], ends[1:]])
-            return Guide(np.asarray(pull_taut(world.solids, radius + BUFFER / 2.0, whole)), width)
+            return Guide(np.asarray(pull_taut(world.scene, radius + BUFFER / 2.0, whole)), width)
     return Guide(np.empty((0, 3)), width)

@@ -1,71 +1,33 @@
 """One plan, from the world to a proved trajectory.
 
-    fan of bows -> HAOAROA on the spline's cost -> L-BFGS on the distinct best -> certificate -> best -> timing -> proof
+    method -> shapes -> timing -> proof -> the first that is proved
 
-When none of the fan can be proved, a search graph gives the way round and the same polish follows it, more closely from
-try to try. The result is certified or it is not a result: `NoPathFound` is raised instead, and says what the graph
-shows.
+A method (`shape` has HAOAROA's, `baselines` its rivals') finds curves in space; timing and proof are the same for all.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from planner import errors
-from planner.bspline import DEGREE, FloatArray, clamped_knots, derivative_control_points, evaluate
-from planner.certificate import certify, end_needed, needed
-from planner.cost import FIXED, SAMPLES, Grid, SplineCost, build_grid
-from planner.descent import polish, search
+from planner.bspline import DEGREE, FloatArray, derivative_control_points
+from planner.certificate import certify, end_needed
 from planner.distance import nearest_solid
 from planner.guide import guide
 from planner.limits import Limits
-from planner.search.asktell import POPULATION
-from planner.search.haoaroa import Haoaroa
-from planner.seeds import along_path, fan
+from planner.query import Query
+from planner.shape import Effort, Shape, haoaroa
 from planner.stopwatch import Stopwatch
 from planner.timing import uniform_scaling, within
 from planner.trajectory import Trajectory
 from planner.worlds import Box, Point, World, as_point
 
-METHODS = ("haoaroa",)
-SPACING = 1.4
-"""Aimed distance between control points [m]."""
-FEWEST, MOST, MOST_GUIDED = 16, 120, 400
-"""Control points of a plan; along a guide there may be more, since a polish costs less than a search."""
-ITERATIONS = 15
-"""Of HAOAROA: four of exploration, the rest of exploitation. It has to find the right side of the obstacles, not the
-minimum: the polish is the better finisher. On each family of benchmark worlds 12, 15, 20 and 30 iterations end in mean
-lengths within 0.4 %.
-"""
-ELITES = 4
-NEAREST = 0.25
-"""Least reach c of the obstacles' hinge [m]. Crossing a sheet costs k c^2/2 (see `cost`): with less, a detour around
-one would not pay. Nor is c less than the way between two samples, so that no sheet stands between them unseen.
-"""
-STEP = 0.5
-"""Along a guide a step of the polish is at most this much of the reach, lest the curve jump to a sheet's other side."""
-STIFFER = (1.0, 4.0, 32.0)
-"""Factors on the obstacle weight, tried in turn until a curve is proved."""
-
-
-class Try(NamedTuple):
-    """How a guide is followed."""
-
-    spacing: float  # aimed distance between control points [m]
-    softest: float  # bound on the rounding of corners [m] (see `cost`)
-    buffer: float  # most that the hinge reaches beyond the radius [m]
-
-
-TRIES = (
-    Try(SPACING, np.inf, np.inf),
-    Try(SPACING, 1.5, np.inf),  # mazes
-    Try(SPACING / 2.0, 0.75, np.inf),
-    Try(SPACING / 4.0, 0.4, 0.1),  # slits, where a wide hinge pushes from both sides alike
-    Try(SPACING / 8.0, 0.4, 0.1),
-)
-"""Ways to follow a guide, in turn, until a curve is proved."""
+Finder = Callable[[Query, Effort], Iterator[Shape]]
+"""A method: hands over shapes, most promising first, and counts what they took. The first whose timed form is proved
+becomes the plan, else the last; a method that wants no unproved plan raises NoPathFound in the end."""
+FINDERS: dict[str, Finder] = {"haoaroa": haoaroa}
+METHODS = tuple(FINDERS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +96,14 @@ def plan(
     a, b = as_point("start", start), as_point("goal", goal)
     check_endpoint(world, a, radius, errors.StartInCollision, errors.StartOutOfBounds)
     check_endpoint(world, b, radius, errors.GoalInCollision, errors.GoalOutOfBounds)
-    return _Search(world, np.array(a), np.array(b), limits, float(radius), seed).run(method, watch)
+    query, effort = Query(world, np.array(a), np.array(b), limits, float(radius), seed), Effort()
+    made: Plan | None = None
+    for shape in FINDERS[method](query, effort):
+        made = finish(query, shape, effort, method, watch)
+        if made.certified:
+            break
+    assert made is not None, f"{method} hands over a shape or raises"
+    return made
 
 
 def warm_up() -> None:
@@ -161,181 +130,41 @@ def check_endpoint(
     distance, axis, side, bound = min(ways)
     if distance < need:
         raise outside(point, axis, side, bound, distance, radius, need - radius)
-    nearest, index = nearest_solid(world.solids, *point)
+    nearest, index = nearest_solid(world.scene, *point)
     if nearest < need:
         kind = type(world.obstacles[index]).__name__.lower()
         raise collision(point, index, kind, nearest, radius, need - radius)
 
 
-@dataclass(frozen=True, slots=True)
-class _Proved:
-    points: FloatArray
-    x: FloatArray
-    cost: SplineCost
-    value: float  # stretch + smoothness [m]
-
-
-class _Search:
-    """One plan's working state."""
-
-    def __init__(
-        self, world: World, start: FloatArray, goal: FloatArray, limits: Limits, radius: float, seed: int
-    ) -> None:
-        self.world, self.start, self.goal, self.limits, self.radius = world, start, goal, limits, radius
-        self.generator = np.random.default_rng(seed)
-        # Half a margin outside the ends' own bounds: provable, and lower < upper even where the map is 2 radius wide.
-        room = (needed(world, radius) + end_needed(world, radius)) / 2.0
-        self.lower, self.upper = world.walls[0] + room, world.walls[1] - room
-        self.evaluations = self.iterations = self.tried = self.certified = 0
-        self.guided = False
-        self.grid: Grid | None = None  # for the widest reach so far
-        self.grid_reach = 0.0
-        self.refused: list[FloatArray] = []
-
-    def run(self, method: str, watch: Stopwatch) -> Plan:
-        distance = float(np.linalg.norm(self.goal - self.start))
-        cost = self.spline_cost(distance, Try(SPACING, np.inf, np.inf), MOST)
-        found = self.prove_all(self.search(cost), cost)
-        made = self.finish_best(found, method, watch)
-        if made is not None:
-            return made
-        self.guided = True
-        way = guide(self.world, self.start, self.goal, self.radius)
-        for how in TRIES if len(way.path) else ():
-            cost = self.spline_cost(way.length, how, MOST_GUIDED)
-            made = self.finish_best(self.follow(along_path(way.path, cost.n), cost), method, watch)
-            if made is not None:
-                return made
-        raise errors.NoPathFound(self.tried, self.evaluations, self.shortfall(), self.radius, way.length, way.width)
-
-    def finish_best(self, found: list[_Proved], method: str, watch: Stopwatch) -> Plan | None:
-        """The plan from the best of the proved curves whose timed form is proved too, as in practice the first is."""
-        for best in sorted(found, key=lambda p: p.value):
-            made = self.finish(best, method, watch)
-            if made.certified:
-                return made
-        return None
-
-    def spline_cost(self, length: float, how: Try, most: int) -> SplineCost:
-        n = int(np.clip(round(length / how.spacing) + DEGREE, FEWEST, most))
-        wanted = max(self.radius + max(0.05, 0.4 * self.radius), NEAREST)
-        reach = max(min(wanted, self.radius + how.buffer), length / ((n - DEGREE) * SAMPLES))
-        if reach > self.grid_reach:
-            self.grid, self.grid_reach = build_grid(self.world, reach), reach
-        return SplineCost(
-            self.world,
-            self.start,
-            self.goal,
-            n,
-            self.limits,
-            reach,
-            length=length,
-            softest=how.softest,
-            grid=self.grid,
-        )
-
-    def search(self, cost: SplineCost) -> Iterator[FloatArray]:
-        """HAOAROA from the fan; the best of each candidate, best first, those near a better one left out."""
-        seeds = fan(self.start, self.goal, self.lower, self.upper, cost.n, POPULATION, self.generator)
-        f = cost.n - 2 * FIXED
-        optimiser = Haoaroa(
-            np.tile(self.lower, f),
-            np.tile(self.upper, f),
-            self.generator,
-            initial=seeds,
-            budget=POPULATION * ITERATIONS,
-            step=0.02 * cost.distance,
-        )
-        search(optimiser, cost)
-        self.evaluations += optimiser.evaluations
-        self.iterations += optimiser.iteration
-        order = np.argsort(optimiser.population.best_costs, kind="stable")
-        ranked = optimiser.population.best_positions[order]
-        for i in range(len(ranked)):
-            if i == 0 or (np.abs(ranked[:i] - ranked[i]).max(axis=1) > cost.reach).all():
-                yield ranked[i].copy()
-
-    def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost) -> list[_Proved]:
-        """Polish the seeds, most promising first, and keep what can be proved; stop after ELITES once something is."""
-        found: list[_Proved] = []
-        for k, seed in enumerate(seeds):
-            if k >= ELITES and found:
-                break
-            self.tried += 1
-            x = seed
-            for factor in STIFFER:
-                x, evaluations = polish(cost, x, factor)
-                self.evaluations += evaluations
-                x = self.inside(x)
-                points = cost.control_points(x)
-                if certify(points, cost.knots, self.world, self.radius, full=False).certified:
-                    self.certified += 1
-                    found.append(_Proved(points, x, cost, cost.stretch(x) + cost.smoothness(x)))
-                    break
-            else:
-                self.refused.append(points)
-        return found
-
-    def follow(self, x: FloatArray, cost: SplineCost) -> list[_Proved]:
-        """Polish a guide's seed, obstacles at their stiffest first, so that it stays on the guide's side of them."""
-        found: list[_Proved] = []
-        self.tried += 1
-        for factor in STIFFER[::-1]:
-            x, evaluations = polish(cost, x, factor, longest=STEP * cost.reach)
-            self.evaluations += evaluations
-            x = self.inside(x)
-            points = cost.control_points(x)
-            if certify(points, cost.knots, self.world, self.radius, full=False).certified:
-                found.append(_Proved(points, x, cost, cost.stretch(x) + cost.smoothness(x)))
-            elif not found:
-                self.refused.append(points)
-            else:
-                break
-        self.certified += bool(found)
-        return found
-
-    def inside(self, x: FloatArray) -> FloatArray:
-        """The free control points moved into the map: their hull then keeps the radius from its walls."""
-        held: FloatArray = np.clip(x.reshape(-1, 3), self.lower, self.upper).ravel()
-        return held
-
-    def shortfall(self) -> float:
-        """By how much the best of the unproved curves misses the radius on samples [m], for the error."""
-        least = np.inf
-        for points in self.refused:
-            samples = evaluate(points, clamped_knots(len(points)), np.linspace(0.0, 1.0, 20 * len(points)))
-            nearest = min(self.world.distance(samples).min(), self.world.wall_distance(samples).min())
-            least = min(least, max(self.radius - float(nearest), 0.0))
-        return float(least)
-
-    def finish(self, best: _Proved, method: str, watch: Stopwatch) -> Plan:
-        knots = uniform_scaling(best.points, self.limits)
-        trajectory = Trajectory(best.points, knots)
-        proof = certify(best.points, knots, self.world, self.radius)
-        if not proof.certified:  # its least distance took too many pieces; the radius took few
-            proof = certify(best.points, knots, self.world, self.radius, full=False)
-        terms = best.cost.terms(best.x)
-        report = Report(
-            evaluations=self.evaluations,
-            iterations=self.iterations,
-            seeds_tried=self.tried,
-            seeds_certified=self.certified,
-            guided=self.guided,
-            stretch=terms.stretch,
-            smoothness=terms.smoothness,
-            obstacle=terms.obstacle,
-            curvature_max=curvature_max(trajectory),
-            jerk_integral=jerk_integral(trajectory),
-        )
-        return Plan(
-            trajectory=trajectory,
-            length=trajectory.length,
-            clearance=proof.obstacle_distance - self.radius,
-            certified=proof.certified and within(best.points, knots, self.limits),
-            cpu_ms=watch.elapsed_ms(),
-            method=method,
-            report=report,
-        )
+def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopwatch) -> Plan:
+    """Time a shape, prove what can be proved about it, and report."""
+    points, world, radius = shape.control_points, query.world, query.radius
+    knots = uniform_scaling(points, query.limits)
+    trajectory = Trajectory(points, knots)
+    proof = certify(points, knots, world, radius)
+    if not proof.certified:  # its least distance took too many pieces; the radius took few
+        proof = certify(points, knots, world, radius, full=False)
+    report = Report(
+        evaluations=effort.evaluations,
+        iterations=effort.iterations,
+        seeds_tried=effort.tried,
+        seeds_certified=effort.certified,
+        guided=effort.guided,
+        stretch=shape.stretch,
+        smoothness=shape.smoothness,
+        obstacle=shape.obstacle,
+        curvature_max=curvature_max(trajectory),
+        jerk_integral=jerk_integral(trajectory),
+    )
+    return Plan(
+        trajectory=trajectory,
+        length=trajectory.length,
+        clearance=proof.obstacle_distance - radius,
+        certified=proof.certified and within(points, knots, query.limits),
+        cpu_ms=watch.elapsed_ms(),
+        method=method,
+        report=report,
+    )
 
 
 def curvature_max(trajectory: Trajectory) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from planner import distance
-from planner.distance import FloatArray
+from planner.distance import FloatArray, Scene
 
 Point = tuple[float, float, float]
 
@@ -105,7 +105,7 @@ class World:
 
     bounds: tuple[Point, Point]
     obstacles: Sequence[Obstacle] = ()  # kept as a tuple
-    solids: FloatArray = field(init=False, repr=False, compare=False)  # (k, 7) rows for the kernels
+    scene: Scene = field(init=False, repr=False, compare=False)  # the obstacles, for the kernels
     walls: FloatArray = field(init=False, repr=False, compare=False)  # (2, 3) the bounds as an array
     largest: float = field(init=False, repr=False, compare=False)  # absolute coordinate or size of all these [m]
 
@@ -121,9 +121,10 @@ class World:
         object.__setattr__(self, "bounds", (low, high))
         object.__setattr__(self, "obstacles", tuple(self.obstacles))
         rows = [o.packed() for o in self.obstacles]
-        object.__setattr__(self, "solids", np.array(rows, dtype=np.float64).reshape(-1, distance.WIDTH))
+        solids = np.array(rows, dtype=np.float64).reshape(-1, distance.WIDTH)
+        object.__setattr__(self, "scene", Scene(solids))
         object.__setattr__(self, "walls", np.array([low, high], dtype=np.float64))
-        largest = max(np.abs(self.walls).max(), np.abs(self.solids[:, 1:]).max(initial=0.0))
+        largest = max(np.abs(self.walls).max(), np.abs(solids[:, 1:]).max(initial=0.0))
         object.__setattr__(self, "largest", float(largest))
 
     def distance(self, points: FloatArray) -> FloatArray:
@@ -134,7 +135,7 @@ class World:
         """The same and its unit gradient (m, 3), which is zero when there is no obstacle."""
         p = np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 3)
         d, g = np.empty(len(p)), np.empty((len(p), 3))
-        distance.least_distances(self.solids, p, d, g)
+        distance.least_distances(self.scene, p, d, g)
         return d, g
 
     def wall_distance(self, points: FloatArray) -> FloatArray:

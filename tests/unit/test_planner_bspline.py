@@ -8,6 +8,7 @@ from scipy.integrate import quad
 from scipy.interpolate import BSpline
 
 from planner.bspline import (
+    DEGREE,
     arc_length,
     basis,
     bezier_pieces,
@@ -15,6 +16,7 @@ from planner.bspline import (
     derivative_control_points,
     evaluate,
     gram_matrix,
+    refine,
     span_hulls,
 )
 from planner.errors import KnotError
@@ -118,3 +120,15 @@ def test_the_length_is_the_integral_of_the_speed(curve: tuple[np.ndarray, np.nda
 def test_knots_that_cannot_be_are_refused(n: int, duration: float) -> None:
     with pytest.raises(KnotError):
         clamped_knots(n, duration)
+
+
+def test_a_curve_keeps_its_shape_on_finer_knots_and_on_a_part_of_its_range() -> None:
+    rng = np.random.default_rng(0)
+    points, knots = rng.normal(size=(9, 3)), clamped_knots(9, 2.0)
+    finer = np.sort(np.concatenate([knots, rng.uniform(0.0, 2.0, 7)]))
+    a, b = 0.7, 1.5
+    part = np.concatenate([[a] * 4, knots[(knots > a) & (knots < b)], [b] * 4])
+    for new in (finer, part):
+        t = np.linspace(new[0], new[-1], 200)
+        same = BSpline(new, refine(points, knots, new), DEGREE)(t)
+        np.testing.assert_allclose(same, BSpline(knots, points, DEGREE)(t), atol=1e-13)

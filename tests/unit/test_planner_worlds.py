@@ -89,4 +89,4 @@ def test_a_world_survives_pickling() -> None:
     world = World(WALLS, SOLIDS)
     copy = pickle.loads(pickle.dumps(world))
     assert copy == world
-    np.testing.assert_array_equal(copy.solids, world.solids)
+    np.testing.assert_array_equal(copy.scene.solids, world.scene.solids)
