@@ -133,6 +133,20 @@ def derivative_control_points(control_points: FloatArray, knots: FloatArray, deg
     return degree * (control_points[1:] - control_points[:-1]) / spacing[:, None]
 
 
+def end_control_points(
+    position: FloatArray, velocity: FloatArray, acceleration: FloatArray, knots: FloatArray
+) -> FloatArray:
+    """The first three control points (3, 3) [m] of a clamped cubic that starts in a given state.
+
+    With d_0, d_1 the first two spans, and from `derivative_control_points` V_0 = 3 (P_1 - P_0)/d_0, V_1 = 3 (P_2 -
+    P_1)/(d_0 + d_1), A_0 = 2 (V_1 - V_0)/d_0. At the other end: the time reversed, that is velocity negated, knots
+    counted from the end, and the points in reverse.
+    """
+    d0, d1 = knots[4] - knots[3], knots[5] - knots[4]
+    first = position + velocity * (d0 / 3.0)
+    return np.array([position, first, first + (velocity + acceleration * (d0 / 2.0)) * ((d0 + d1) / 3.0)])
+
+
 def basis(knots: FloatArray, n: int, t: ArrayLike, degree: int = DEGREE, derivative: int = 0) -> FloatArray:
     """Every basis function at every time: row j holds N_i(t_j), so that `basis @ P` is the curve.
 
