@@ -117,7 +117,10 @@ def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: 
         x, v, mine, leader = p.positions[i], p.velocities[i], p.best_positions[i], p.best_positions[best]
         random = p.positions[int(u[0] * n_pop)]
         mate_a, mate_b = p.best_positions[int(u[1] * n_pop)], p.best_positions[int(u[2] * n_pop)]
-        largest = np.abs(p.gradients[i]).max()
+        largest = 0.0
+        for k in range(n_dim):
+            largest = max(largest, abs(p.gradients[i, k]))
+        buoyant = p.steps[i] / largest if largest > 0.0 else 0.0
         group = i % _GROUPS
         sign = 1.0 if 2.0 * u[3] - _AOA_C4 <= 0.5 else -1.0  # AOA's direction flag F
         for k in range(n_dim):
@@ -136,7 +139,7 @@ def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: 
                 pull = 0.5 * (C1 * r1 * (mine[k] - x[k]) + C2 * r2 * (goal - x[k]))  # gamma term of Eq. 47, 48
             if with_gradient:
                 # lambda F with F = -grad J (Eq. 44, 45); while exploiting the same is -beta grad J (Eq. 48)
-                buoyancy = -p.steps[i] * p.gradients[i, k] / largest if largest > 0.0 else 0.0
+                buoyancy = -buoyant * p.gradients[i, k]
             elif explore:
                 buoyancy = _AOA_C1 * r2 * p.traits[i, 2] * d * (random[k] - x[k])
             else:
