@@ -4,10 +4,8 @@ Worlds of 20 x 20 x 4 m, full-height obstacles, radius 0.3 m, limits 3/6/60, sta
 Times are CPU time of one thread with kernels warm; ratios are taken within one run, so they mean the same elsewhere.
 """
 
-import math
 import sys
 import time
-from collections.abc import Callable
 
 import numpy as np
 from scipy.ndimage import label
@@ -16,85 +14,27 @@ from scipy.optimize import differential_evolution
 from planner import Box, Cylinder, Limits, NoPathFound, PlannerError, Sphere, World, plan, warm_up
 from planner.cost import SplineCost
 from planner.descent import search
+from planner.families import RADIUS, make
 from planner.search.haoaroa import Haoaroa
 from planner.seeds import fan
-from planner.worlds import Obstacle
+from planner.worlds import Obstacle, Point
 
-LIMITS, RADIUS, HEIGHT = Limits(speed=3.0, acceleration=6.0, jerk=60.0), 0.3, 4.0
-BOUNDS = ((0.0, 0.0, 0.0), (20.0, 20.0, HEIGHT))
-
-
-def _wall(x0: float, y0: float, x1: float, y1: float) -> Box:
-    return Box((x0, y0, 0.0), (x1, y1, HEIGHT))
+LIMITS = Limits(speed=3.0, acceleration=6.0, jerk=60.0)
+WORLDS = {"gap": 50, "L": 30, "H": 30, "U": 30, "Omega": 30, "forest": 100}
+"""Families and how many worlds of each."""
 
 
-def gap(rng: np.random.Generator) -> list[Obstacle]:
-    """A wall with one gap of 1.4 m."""
-    y = rng.uniform(4.0, 16.0)
-    return [_wall(9.75, 0.0, 10.25, y - 0.7), _wall(9.75, y + 0.7, 10.25, 20.0)]
-
-
-def l_shape(rng: np.random.Generator) -> list[Obstacle]:
-    """Two arms that meet at a right angle, across the line and back toward the start."""
-    dx, dy = rng.uniform(-1.0, 1.0, 2)
-    return [_wall(9.5 + dx, 6.0 + dy, 10.5 + dx, 14.0 + dy), _wall(5.0 + dx, 13.0 + dy, 9.5 + dx, 14.0 + dy)]
-
-
-def h_shape(rng: np.random.Generator) -> list[Obstacle]:
-    """Two bars along the way joined by a bar across it."""
-    dx, dy = rng.uniform(-1.0, 1.0, 2)
-    bars = [_wall(6.0 + dx, y + dy, 14.0 + dx, y + 1.0 + dy) for y in (5.5, 13.5)]
-    return [*bars, _wall(9.5 + dx, 6.5 + dy, 10.5 + dx, 13.5 + dy)]
-
-
-def u_shape(rng: np.random.Generator) -> list[Obstacle]:
-    """A pocket open toward the start."""
-    dx, dy = rng.uniform(-1.0, 1.0, 2)
-    arms = [_wall(6.0 + dx, y + dy, 12.0 + dx, y + 1.0 + dy) for y in (6.0, 13.0)]
-    return [*arms, _wall(11.0 + dx, 7.0 + dy, 12.0 + dx, 13.0 + dy)]
-
-
-def omega(rng: np.random.Generator) -> list[Obstacle]:
-    """A ring of radius 4 m made of posts, open at the start's side, with a neck."""
-    dx, dy = rng.uniform(-1.0, 1.0, 2)
-    angles = np.linspace(-math.pi + 0.35, math.pi - 0.35, 42)
-    ring = [Cylinder((10 + dx + 4 * math.cos(a), 10 + dy + 4 * math.sin(a)), 0.4, (0, HEIGHT)) for a in angles]
-    neck = [_wall(4.0 + dx, y + dy, 6.2 + dx, y + 0.5 + dy) for y in (8.4, 11.1)]
-    return [*ring, *neck]
-
-
-def forest(rng: np.random.Generator) -> list[Obstacle]:
-    """Fifty trees, every gap between two of them passable."""
-    trees: list[tuple[float, float, float]] = []
-    while len(trees) < 50:
-        x, y, r = rng.uniform(2.5, 17.5), rng.uniform(0.5, 19.5), rng.uniform(0.25, 0.6)
-        if all(math.hypot(x - a, y - b) > r + s + 2 * RADIUS + 0.2 for a, b, s in trees):
-            trees.append((x, y, r))
-    return [Cylinder((x, y), r, (0.0, HEIGHT)) for x, y, r in trees]
-
-
-FAMILIES: dict[str, tuple[Callable[[np.random.Generator], list[Obstacle]], int]] = {
-    "gap": (gap, 50),
-    "L": (l_shape, 30),
-    "H": (h_shape, 30),
-    "U": (u_shape, 30),
-    "Omega": (omega, 30),
-    "forest": (forest, 100),
-}
-
-
-def world_of(family: str, seed: int) -> tuple[World, tuple[float, float, float], tuple[float, float, float]]:
+def world_of(family: str, seed: int) -> tuple[World, Point, Point]:
     """One seeded world with its start and goal."""
-    rng = np.random.default_rng([seed, list(FAMILIES).index(family)])
-    y0, y1 = 10.0 + rng.uniform(-0.5, 0.5, 2)
-    return World(bounds=BOUNDS, obstacles=FAMILIES[family][0](rng)), (1.0, y0, 1.5), (19.0, y1, 1.5)
+    made = make(family, seed)
+    return made.world, made.start, made.goal
 
 
 def plans(most: int) -> None:
     """Every family: certified, time, length, duration."""
     print("| family | certified | guided | CPU ms median | p95 | length m | duration s | evaluations | clearance m |")
     print("|---|---|---|---|---|---|---|---|---|")
-    for family, (_, worlds) in FAMILIES.items():
+    for family, worlds in WORLDS.items():
         found, failed = [], 0
         for seed in range(min(worlds, most)):
             world, start, goal = world_of(family, seed)
@@ -187,7 +127,7 @@ def kernel() -> None:
     """Cost with gradient: microseconds a call, inside compiled code (HAOAROA's own moves are counted too)."""
     print("\n| family | HAOAROA 20 x 100, ms | us an evaluation, moves included |")
     print("|---|---|---|")
-    for family in FAMILIES:
+    for family in WORLDS:
         spent = []
         for seed in range(5):
             cost, seeds, low, high = _cost(family, seed)
@@ -205,7 +145,7 @@ def against_scipy(worlds: int) -> None:
     """
     print("\n| family | HAOAROA J | DE J | HAOAROA ms | DE ms | time ratio |")
     print("|---|---|---|---|---|---|")
-    for family in FAMILIES:
+    for family in WORLDS:
         rows = []
         for seed in range(worlds):
             cost, seeds, low, high = _cost(family, seed)

@@ -6,7 +6,7 @@
       EndpointError
         StartInCollision    GoalInCollision       closer to an obstacle than the radius
         StartOutOfBounds    GoalOutOfBounds       closer to a wall of the map than the radius, or beyond it
-      NoPathFound           the search ended without a certified trajectory
+      NoPathFound           there is no way (proved), or the search ended without a certified trajectory (not proved)
 
 Every number in a message is also an attribute. All of them survive pickling, since plans are made in worker processes:
 the constructor's arguments are exactly `Exception.args`, and the sentence is built when it is read.
@@ -120,26 +120,40 @@ class GoalOutOfBounds(_OutOfBounds):
 
 
 class NoPathFound(PlannerError):
-    """The search spent its budget and nothing it found could be proved clear.
+    """There is no curve, or none could be proved within the budget; `proved` tells which.
 
-    `shortfall` [m] is by how much the best curve found misses the radius; `tried` counts the curves that were polished
-    and put to the proof. `way` [m] is the length of the way that the search graph shows, inf when its cells, `cell` [m]
-    wide at the finest, show none; a slit narrower than a cell can hide between them. This is "gave up", not "proved
-    unreachable".
+    `proved` True: no curve that keeps the radius leads from start to goal, see `enclosure`. False: "gave up". Then
+    `shortfall` [m] is by how much the best curve found misses the radius, `tried` counts the curves that were polished
+    and put to the proof, and `way` [m] is the length of the way that the search graph shows, inf when its points,
+    `cell` [m] apart at the finest, show none; a slit narrower than that can hide between them.
     """
 
-    def __init__(self, tried: int, evaluations: int, shortfall: float, radius: float, way: float, cell: float) -> None:
-        super().__init__(tried, evaluations, shortfall, radius, way, cell)
+    def __init__(
+        self,
+        tried: int,
+        evaluations: int,
+        shortfall: float,
+        radius: float,
+        way: float,
+        cell: float,
+        proved: bool = False,
+    ) -> None:
+        super().__init__(tried, evaluations, shortfall, radius, way, cell, proved)
         self.tried, self.evaluations, self.shortfall, self.radius = tried, evaluations, shortfall, radius
-        self.way, self.cell = way, cell
+        self.way, self.cell, self.proved = way, cell, proved
 
     def __str__(self) -> str:
+        if self.proved:
+            return (
+                "no path found: proved unreachable on the grid: cells that are nearer to obstacles than "
+                f"{self.radius:.3f} m all over wall start and goal off from each other"
+            )
         cells = f"its cells of {self.cell:.3g} m"
         if math.isinf(self.way):
             graph = f"the search graph shows no way through {cells}"
         else:
             graph = f"the search graph's way of {self.way:.1f} m through {cells} could not be followed"
         return (
-            f"no path found: {self.tried} curves polished with {self.evaluations} evaluations, none keeps "
-            f"{self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}; {graph}"
+            f"no path found: gave up after {self.tried} curves polished with {self.evaluations} evaluations, none "
+            f"keeps {self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}; {graph}"
         )

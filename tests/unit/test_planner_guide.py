@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from planner import Box, Cylinder, World
-from planner.guide import MOST_CELLS, guide, widths
+from planner.guide import MOST_POINTS, guide, widths
 
 BOUNDS = ((0, 0, 0), (12, 8, 3))
 
@@ -71,7 +71,7 @@ def test_an_end_that_hardly_keeps_the_radius_is_left_all_the_same() -> None:
 def test_every_map_has_a_grid_that_fits(extent: tuple[float, float, float]) -> None:
     found = widths(np.array(extent, dtype=float))
     assert found == sorted(found, reverse=True)
-    assert all(math.prod(math.ceil(e / w) + 1 for e in extent) <= MOST_CELLS for w in found)
+    assert all(math.prod(math.ceil(e / w) + 1 for e in extent) <= MOST_POINTS for w in found)
     assert found
 
 
