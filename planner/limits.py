@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.bspline import DEGREE, FloatArray, derivative_control_points
-from planner.errors import InfeasibleLimits
+from planner.bspline import FloatArray
+from planner.errors import InfeasibleLimits, KnotError
+from planner.jit import kernel
 
 LEAST, MOST = 1e-6, 1e6
 """What a limit may be, in its SI unit. Vehicles have 0.1 to 1000; the room around that is for odd questions.
@@ -60,9 +61,29 @@ def derivative_bounds(control_points: FloatArray, knots: FloatArray) -> Derivati
     ------
     KnotError : an interior knot repeats.
     """
-    norms = []
+    bounds = DerivativeBounds(*_largest_norms(control_points, knots))
+    if bounds.speed < 0.0:
+        raise KnotError("an interior knot repeats")
+    return bounds
+
+
+@kernel
+def _largest_norms(P: FloatArray, knots: FloatArray) -> tuple[float, float, float]:
+    """Largest norm of each derivative's control points (`bspline.derivative_control_points`, thrice); -1: bad knots."""
+    n, largest = P.shape[0], np.zeros(3)
+    Q = P.copy()
     for order in range(3):
-        control_points = derivative_control_points(control_points, knots, DEGREE - order)
-        knots = knots[1:-1]
-        norms.append(float(np.sqrt(np.einsum("ij,ij->i", control_points, control_points)).max()))
-    return DerivativeBounds(*norms)
+        p, most = 3 - order, 0.0
+        for i in range(n - 1 - order):
+            spacing = knots[order + i + p + 1] - knots[order + i + 1]
+            if not spacing > 0.0:
+                return -1.0, -1.0, -1.0
+            s = p / spacing
+            for k in range(3):
+                Q[i, k] = (Q[i + 1, k] - Q[i, k]) * s
+            square = Q[i, 0] * Q[i, 0] + Q[i, 1] * Q[i, 1] + Q[i, 2] * Q[i, 2]
+            if not square < np.inf:  # NaN too
+                return np.inf, np.inf, np.inf
+            most = max(most, square)
+        largest[order] = most**0.5
+    return largest[0], largest[1], largest[2]

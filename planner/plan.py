@@ -11,15 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner import errors
-from planner.bspline import DEGREE, FloatArray, derivative_control_points
-from planner.certificate import certify, end_needed
+from planner.bspline import FloatArray
+from planner.certificate import Certificate, certify, end_needed
 from planner.distance import nearest_solid
 from planner.guide import guide
 from planner.limits import Limits
 from planner.query import Query
 from planner.shape import Effort, Shape, haoaroa
 from planner.stopwatch import Stopwatch
-from planner.timing import uniform_scaling, within
+from planner.timing import Motion, timings, within
 from planner.trajectory import Trajectory
 from planner.worlds import Box, Point, World, as_point
 
@@ -138,12 +138,20 @@ def check_endpoint(
 
 def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopwatch) -> Plan:
     """Time a shape, prove what can be proved about it, and report."""
-    points, world, radius = shape.control_points, query.world, query.radius
-    knots = uniform_scaling(points, query.limits)
-    trajectory = Trajectory(points, knots)
-    proof = certify(points, knots, world, radius)
-    if not proof.certified:  # its least distance took too many pieces; the radius took few
-        proof = certify(points, knots, world, radius, full=False)
+    world, radius = query.world, query.radius
+    made: tuple[Motion, Certificate] | None = None
+    for motion in timings(shape.control_points, shape.knots, query.limits):
+        proof = certify(motion.control_points, motion.knots, world, radius)
+        if not proof.certified:  # its least distance took too many pieces; the radius took few
+            proof = certify(motion.control_points, motion.knots, world, radius, full=False)
+        if proof.certified or made is None:
+            made = motion, proof
+        if proof.certified:
+            break
+    assert made is not None, "a shape at rest at both ends can be flown slowly"
+    motion, proof = made
+    trajectory = Trajectory(motion.control_points, motion.knots)
+    measures = trajectory.measures()
     report = Report(
         evaluations=effort.evaluations,
         iterations=effort.iterations,
@@ -153,37 +161,15 @@ def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopw
         stretch=shape.stretch,
         smoothness=shape.smoothness,
         obstacle=shape.obstacle,
-        curvature_max=curvature_max(trajectory),
-        jerk_integral=jerk_integral(trajectory),
+        curvature_max=measures.curvature_max,
+        jerk_integral=measures.jerk_integral,
     )
     return Plan(
         trajectory=trajectory,
-        length=trajectory.length,
+        length=measures.length,
         clearance=proof.obstacle_distance - radius,
-        certified=proof.certified and within(points, knots, query.limits),
+        certified=proof.certified and within(motion.control_points, motion.knots, query.limits),
         cpu_ms=watch.elapsed_ms(),
         method=method,
         report=report,
     )
-
-
-def curvature_max(trajectory: Trajectory) -> float:
-    """Largest |C' x C''| / |C'|^3 [1/m] on eight samples a span, where the speed is above 1 % of its peak."""
-    spans = len(trajectory.control_points) - DEGREE
-    t = (np.arange(8 * spans) + 0.5) / (8 * spans) * trajectory.duration
-    v, a = trajectory.velocity(t), trajectory.acceleration(t)
-    speed = np.linalg.norm(v, axis=1)
-    moving = speed > 0.01 * speed.max(initial=0.0)
-    if not moving.any():
-        return 0.0
-    (vx, vy, vz), (ax, ay, az) = v[moving].T, a[moving].T
-    turning = np.sqrt((vy * az - vz * ay) ** 2 + (vz * ax - vx * az) ** 2 + (vx * ay - vy * ax) ** 2)
-    return float((turning / speed[moving] ** 3).max())
-
-
-def jerk_integral(trajectory: Trajectory) -> float:
-    """int |jerk|^2 dt [m^2/s^5]; exact, since the jerk is constant on each span."""
-    points, knots = trajectory.control_points, trajectory.knots
-    for degree in (3, 2, 1):
-        points, knots = derivative_control_points(points, knots, degree), knots[1:-1]
-    return float((np.diff(knots) * (points**2).sum(axis=1)).sum())

@@ -1,19 +1,22 @@
 """A planned motion: where to be, how fast, and how hard to push, at any time.
 
 Each span is kept as its Taylor polynomial about the span's first knot, so that the flight loop pays a few
-microseconds a call, in plain floats, with nothing to compile.
+microseconds a call, in plain floats.
 """
 
 import math
 from bisect import bisect_right
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from planner.bspline import DEGREE, FloatArray, arc_length, check_knots, derivative_control_points, evaluate
+from planner.bspline import DEGREE, FloatArray, check_knots
 from planner.errors import KnotError
+from planner.jit import kernel
 
+_GAUSS = np.polynomial.legendre.leggauss(12)
 Polynomial = tuple[tuple[float, float, float, float], ...]  # one row an axis: x, x', x''/2, x'''/6 at the span's start
 
 
@@ -24,6 +27,14 @@ class State:
     position: FloatArray
     velocity: FloatArray
     acceleration: FloatArray
+
+
+class Measures(NamedTuple):
+    """What a motion is like as a whole."""
+
+    length: float  # arc length [m]
+    curvature_max: float  # |C' x C''| / |C'|^3, sampled where the speed is above 1 % of its peak [1/m]
+    jerk_integral: float  # int |jerk|^2 dt, exact: the jerk is constant on each span [m^2/s^5]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,12 +70,7 @@ class Trajectory:
         if knots[0] != 0.0:
             raise KnotError(f"a trajectory starts at 0 s, found first knot {knots[0]:g}")
         starts = knots[DEGREE : len(points)]
-        table = np.empty((len(starts), 3, DEGREE + 1))
-        p, u = points, knots
-        for k in range(DEGREE + 1):
-            table[:, :, k] = evaluate(p, u, starts, DEGREE - k) / math.factorial(k)
-            if k < DEGREE:
-                p, u = derivative_control_points(p, u, DEGREE - k), u[1:-1]
+        table = taylor(points, knots)
         for name, value in (("control_points", points), ("knots", knots), ("_table", table)):
             object.__setattr__(self, name, value)
         object.__setattr__(self, "_starts", tuple(starts.tolist()))
@@ -86,7 +92,11 @@ class Trajectory:
     @property
     def length(self) -> float:
         """Arc length [m]."""
-        return arc_length(self.control_points, self.knots)
+        return self.measures().length
+
+    def measures(self) -> Measures:
+        """Length, largest curvature and the integral of the squared jerk."""
+        return Measures(*_measure(self._table, self.knots, *_GAUSS))
 
     def state(self, t: float) -> State:
         """Position, velocity and acceleration at t [s], scalar; the cheapest way to ask for all three."""
@@ -133,3 +143,64 @@ class Trajectory:
         for j in range(DEGREE, derivative - 1, -1):
             value = value * s + math.perm(j, derivative) * c[:, :, j]
         return value.reshape(*times.shape, 3)
+
+
+@kernel
+def taylor(points: FloatArray, knots: FloatArray) -> FloatArray:
+    """x, x', x''/2, x'''/6 at the start of each span (n - 3, 3, 4), by de Boor's recursion there."""
+    spans = points.shape[0] - DEGREE
+    table, d = np.empty((spans, 3, 4)), np.empty(4)
+    for i in range(spans):
+        u = knots[i + 3]
+        for axis in range(3):
+            for q in range(4):
+                d[q] = points[i + q, axis]
+            factor = 1.0
+            for k in range(4):  # d holds the k-th derivative's 4 - k control points of this span
+                p = 3 - k
+                e0, e1, e2, e3 = d[0], d[1], d[2], d[3]
+                for r in range(1, p + 1):
+                    for q in range(p, r - 1, -1):
+                        left, right = knots[i + k + q], knots[i + 4 + q - r]
+                        alpha = (u - left) / (right - left)
+                        d[q] = (1.0 - alpha) * d[q - 1] + alpha * d[q]
+                table[i, axis, k] = d[p] / factor
+                d[0], d[1], d[2], d[3] = e0, e1, e2, e3
+                for q in range(p):
+                    d[q] = p * (d[q + 1] - d[q]) / (knots[i + 4 + q] - knots[i + 1 + k + q])
+                factor *= k + 1
+    return table
+
+
+@kernel
+def _measure(
+    table: FloatArray, knots: FloatArray, nodes: FloatArray, weights: FloatArray
+) -> tuple[float, float, float]:
+    """(length, largest curvature, integral of the squared jerk) of the spans in `table`, by Gauss's rule on each."""
+    length, jerk, fastest = 0.0, 0.0, 0.0
+    speed, v, w = np.empty((table.shape[0], nodes.size)), np.empty(3), np.empty(3)
+    for i in range(table.shape[0]):
+        h = knots[i + 4] - knots[i + 3]
+        for a in range(3):
+            jerk += h * (6.0 * table[i, a, 3]) ** 2
+        for g in range(nodes.size):
+            s, square = 0.5 * h * (1.0 + nodes[g]), 0.0
+            for a in range(3):
+                c = table[i, a, 1] + s * (2.0 * table[i, a, 2] + s * 3.0 * table[i, a, 3])
+                square += c * c
+            speed[i, g] = math.sqrt(square)
+            fastest = max(fastest, speed[i, g])
+            length += 0.5 * h * weights[g] * speed[i, g]
+    curvature = 0.0
+    for i in range(table.shape[0]):
+        h = knots[i + 4] - knots[i + 3]
+        for g in range(nodes.size):
+            if not speed[i, g] > 0.01 * fastest:
+                continue
+            s = 0.5 * h * (1.0 + nodes[g])
+            for a in range(3):
+                v[a] = table[i, a, 1] + s * (2.0 * table[i, a, 2] + s * 3.0 * table[i, a, 3])
+                w[a] = 2.0 * table[i, a, 2] + 6.0 * s * table[i, a, 3]
+            x, y, z = v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]
+            curvature = max(curvature, math.sqrt(x * x + y * y + z * z) / speed[i, g] ** 3)
+    return length, curvature, jerk
