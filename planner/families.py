@@ -41,6 +41,7 @@ class Scenario:
     world: World
     start: Point  # [m]
     goal: Point  # [m]
+    closed: bool = False  # start and goal are walled apart on purpose
 
 
 def _wall(x0: float, y0: float, x1: float, y1: float) -> Box:
@@ -123,7 +124,7 @@ def maze(rng: np.random.Generator, kind: str | None = None) -> Scenario:
         walls[0 if p > i else 1][i, j] = True
     dx, dy = SIZE / nx, SIZE / ny
     ends = [((i + 0.5) * dx, (j + 0.5) * dy, FLIGHT_LEVEL) for i, j in (first, last)]
-    return Scenario(World(BOUNDS, _boxes(walls, dx, dy, thickness)), *ends)
+    return Scenario(World(BOUNDS, _boxes(walls, dx, dy, thickness)), ends[0], ends[1], closed=kind == "closed")
 
 
 def _carve(

@@ -22,7 +22,7 @@ WIDTHS = (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
 """Distances between lattice points tried in turn [m]: those that give a map FEWEST_POINTS to MOST_POINTS; a larger map
 gets wider ones."""
 FEWEST_POINTS, MOST_POINTS = 5_000, 2_000_000
-STOREYS = 2.0
+STOREYS = 4.0
 """Up and down the points of all but the finest lattice are this many times as far apart: most obstacles stand."""
 BURDEN = 9.0
 RAYS = 40

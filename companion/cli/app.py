@@ -89,6 +89,21 @@ def plan(
 
 
 @app.command()
+def worlds(
+    family: Annotated[str, typer.Argument(help="gap, L, H, U, Omega, forest or maze.")],
+    seed: Annotated[int, typer.Option(help="Seed of the world.", min=0, max=2**31 - 1)] = 1,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write here instead of to stdout.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+) -> None:
+    """Write a world of one of the benchmark families as a mission file."""
+    from companion.cli.worlds import write_world
+
+    raise typer.Exit(write_world(family, seed, output, force))
+
+
+@app.command()
 def replay(
     log: LogFile,
     to: Annotated[str, typer.Option(metavar="URL", help="Ground station, e.g. udpout:127.0.0.1:14550.")],
