@@ -32,7 +32,7 @@ from planner.errors import (
 from planner.limits import Limits
 from planner.plan import METHODS, Plan, Report, plan, warm_up
 from planner.trajectory import State, Trajectory
-from planner.worlds import Box, Cylinder, Sphere, World
+from planner.worlds import Box, Cylinder, PointCloud, Prism, Sphere, VoxelGrid, World
 
 __all__ = [
     "METHODS",
@@ -47,12 +47,15 @@ __all__ = [
     "NoPathFound",
     "Plan",
     "PlannerError",
+    "PointCloud",
+    "Prism",
     "Report",
     "Sphere",
     "StartInCollision",
     "StartOutOfBounds",
     "State",
     "Trajectory",
+    "VoxelGrid",
     "World",
     "plan",
     "warm_up",

@@ -23,7 +23,7 @@ Where this leaves the printed equations:
   inside c = radius + buffer only; walls of the map are obstacles with d = distance to the wall.
 
 The integral of h is a midpoint rule with SAMPLES points a span. A grid of cells lists the solids within c of each cell,
-so a sample looks at those alone.
+so a sample looks at those alone. The voxels of a field count as one solid, with the interpolated distance.
 """
 
 import math
@@ -34,7 +34,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.bspline import DEGREE, FloatArray, basis, clamped_knots, gram_matrix
-from planner.distance import BOX, CYLINDER, Scene, solid_distance
+from planner.distance import BOX, PRISM, SPHERE, Scene, plain_distance, prism_distance
+from planner.field import interpolate
 from planner.jit import kernel
 from planner.limits import Limits
 from planner.worlds import World
@@ -96,16 +97,21 @@ class CostTerms:
 
 
 @kernel
-def _cell_range(s: FloatArray, axis: int, reach: float, grid: Grid) -> tuple[int, int]:
-    """First and one past the last cell along an axis that solid s comes within reach of."""
-    if s[0] == BOX:
-        half = s[4 + axis]
-    elif s[0] == CYLINDER and axis == 2:
-        half = s[5]
+def _cell_range(scene: Scene, k: int, axis: int, reach: float, grid: Grid) -> tuple[int, int]:
+    """First and one past the last cell along an axis that solid k comes within reach of."""
+    solids = scene.solids
+    if solids[k, 0] == BOX:
+        half = solids[k, 4 + axis]
+    elif solids[k, 0] >= PRISM and axis < 2:
+        half = 0.0
+        for e in range(int(solids[k, 4]), int(solids[k, 4] + solids[k, 6])):
+            half = max(half, abs(scene.edges[e, axis]))
+    elif solids[k, 0] != SPHERE and axis == 2:
+        half = solids[k, 5]
     else:
-        half = s[4]
-    low = math.floor((s[1 + axis] - half - reach - grid.origin[axis]) * grid.per_metre)
-    high = math.floor((s[1 + axis] + half + reach - grid.origin[axis]) * grid.per_metre) + 1
+        half = solids[k, 4]
+    low = math.floor((solids[k, 1 + axis] - half - reach - grid.origin[axis]) * grid.per_metre)
+    high = math.floor((solids[k, 1 + axis] + half + reach - grid.origin[axis]) * grid.per_metre) + 1
     last = grid.shape[axis]
     return min(max(low, 0), last), min(max(high, 0), last)
 
@@ -115,9 +121,9 @@ def fill_grid(scene: Scene, reach: float, grid: Grid, counting: bool) -> None:
     """Two passes over the same cells: count into `starts` (shifted by one), then write into `items`."""
     solids, ny, nz = scene.solids, grid.shape[1], grid.shape[2]
     for k in range(solids.shape[0]):
-        x0, x1 = _cell_range(solids[k], 0, reach, grid)
-        y0, y1 = _cell_range(solids[k], 1, reach, grid)
-        z0, z1 = _cell_range(solids[k], 2, reach, grid)
+        x0, x1 = _cell_range(scene, k, 0, reach, grid)
+        y0, y1 = _cell_range(scene, k, 1, reach, grid)
+        z0, z1 = _cell_range(scene, k, 2, reach, grid)
         for ix in range(x0, x1):
             for iy in range(y0, y1):
                 for iz in range(z0, z1):
@@ -177,9 +183,18 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Obstacle term of the free control points x (3 f,), gradient added to (3 f,)."""
     # Everything by its own name: a field of a field, or a row of an array, costs more than the arithmetic on it.
     f, c, b, sample, points, slopes = p.energy.shape[0], p.reach, p.basis, p.sample, p.points, p.slopes
-    solids, walls, starts, items, per_metre = p.scene.solids, p.walls, p.grid.starts, p.grid.items, p.grid.per_metre
+    solids, edges, walls, starts, items, per_metre = (
+        p.scene.solids,
+        p.scene.edges,
+        p.walls,
+        p.grid.starts,
+        p.grid.items,
+        p.grid.per_metre,
+    )
     nx, ny, nz = p.grid.shape[0], p.grid.shape[1], p.grid.shape[2]
     x0, y0, z0 = p.grid.origin[0], p.grid.origin[1], p.grid.origin[2]
+    distances, resolution, corner = p.scene.field.distances, p.scene.field.resolution, p.scene.field.origin
+    vx, vy, vz, voxels = corner[0], corner[1], corner[2], distances.size > 0
     for i in range(f):
         for a in range(3):
             points[FIXED + i, a] = x[3 * i + a]
@@ -200,13 +215,25 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
             iz = min(max(int((pz - z0) * per_metre), 0), nz - 1)
             cell = (ix * ny + iy) * nz + iz
             first, end = starts[cell], starts[cell + 1]
-            if first == end and not near_wall:
+            if first == end and not near_wall and not voxels:
                 continue
             fx, fy, fz = 0.0, 0.0, 0.0
             for item in range(first, end):
-                d, gx, gy, gz = solid_distance(solids, items[item], px, py, pz)
+                k = items[item]
+                if solids[k, 0] < PRISM:
+                    d, gx, gy, gz = plain_distance(solids, k, px, py, pz)
+                else:
+                    d, gx, gy, gz = prism_distance(solids, edges, k, px, py, pz)
                 if d < c:
                     h, dh = hinge(c - d, c)  # Eq. 39, one solid
+                    total += h
+                    fx -= dh * gx
+                    fy -= dh * gy
+                    fz -= dh * gz
+            if voxels:
+                d, gx, gy, gz = interpolate(distances, vx, vy, vz, resolution, c, px, py, pz)
+                if d < c:
+                    h, dh = hinge(c - d, c)  # the voxels count as one solid
                     total += h
                     fx -= dh * gx
                     fy -= dh * gy

@@ -13,7 +13,7 @@ import numpy as np
 from planner import errors
 from planner.bspline import FloatArray
 from planner.certificate import Certificate, certify, end_needed
-from planner.distance import nearest_solid
+from planner.distance import nearest_exact
 from planner.guide import guide
 from planner.limits import Limits
 from planner.query import Query
@@ -21,7 +21,7 @@ from planner.shape import Effort, Shape, haoaroa
 from planner.stopwatch import Stopwatch
 from planner.timing import Motion, timings, within
 from planner.trajectory import Trajectory
-from planner.worlds import Box, Point, World, as_point
+from planner.worlds import KINDS, Box, Point, World, as_point
 
 Finder = Callable[[Query, Effort], Iterator[Shape]]
 """A method: hands over shapes, most promising first, and counts what they took. The first whose timed form is proved
@@ -130,9 +130,10 @@ def check_endpoint(
     distance, axis, side, bound = min(ways)
     if distance < need:
         raise outside(point, axis, side, bound, distance, radius, need - radius)
-    nearest, index = nearest_solid(world.scene, *point)
+    nearest, row = nearest_exact(world.scene, *point, 2.0 * need)
     if nearest < need:
-        kind = type(world.obstacles[index]).__name__.lower()
+        index = world.owners[row]
+        kind = KINDS[type(world.obstacles[index])]
         raise collision(point, index, kind, nearest, radius, need - radius)
 
 

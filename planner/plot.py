@@ -10,13 +10,17 @@ import numpy as np
 from planner.bspline import FloatArray
 from planner.limits import Limits
 from planner.plan import Plan
-from planner.worlds import Box, Cylinder, Obstacle, Sphere, World
+from planner.worlds import Box, Cylinder, PointCloud, Prism, Sphere, VoxelGrid, World
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
     from matplotlib.patches import Patch
 
 SAMPLES = 600
+MOST_QUADS = 400
+"""Squares along an axis that voxels are drawn with; more of them are drawn by blocks."""
+Solid = Box | Cylinder | Sphere | Prism
 SOLID, HALO, PATH, ACCENT = "#5b6472", "#e9c9a3", "#1769aa", "#c0392b"
 
 
@@ -74,7 +78,8 @@ def save_plot(
     figure.suptitle(title, x=0.01, ha="left", fontsize=12)
 
     low, high = sorted(signs[2] * world.walls[:, 2])
-    for solid in world.obstacles:
+    _draw_voxels_beside(height, world, points, gone, signs[2])
+    for solid in _solids(world):
         bottom, ceiling = _slice(solid, points)
         height.fill_between(gone, signs[2] * bottom, signs[2] * ceiling, color=SOLID, alpha=0.55, lw=0)
     height.plot(gone, signs[2] * points[:, 2], color=PATH, lw=2)
@@ -108,8 +113,9 @@ def _draw_top(axes: Axes, world: World, points: FloatArray, view: FloatArray, ra
     low, size = corners.min(axis=0), np.ptp(corners, axis=0)
     axes.add_patch(Rectangle((low[0], low[1]), size[0], size[1], fill=False, lw=1.2, color="black"))
     bottom, ceiling = points[:, 2].min(), points[:, 2].max()
+    _draw_voxels(axes, world, view, bottom - radius, ceiling + radius, radius)
     for layer in ("halo", "solid"):
-        for solid in world.obstacles:
+        for solid in _solids(world):
             z0, z1 = _height(solid)
             reached = z0 - radius < ceiling and z1 + radius > bottom
             if layer == "solid":
@@ -133,18 +139,80 @@ def _mark_nearest(axes: Axes, world: World, point: FloatArray, view: FloatArray)
     axes.plot(*ends[0], "o", color=ACCENT, ms=5, zorder=5)
 
 
-def _height(solid: Obstacle) -> tuple[float, float]:
+def _solids(world: World) -> list[Solid]:
+    return [obstacle for obstacle in world.obstacles if not isinstance(obstacle, VoxelGrid | PointCloud)]
+
+
+def _draw_voxels(axes: Axes, world: World, view: FloatArray, low: float, high: float, radius: float) -> None:
+    """A field's voxels from above, darker where one lies between the heights low and high; and their halo there."""
+    field = world.scene.field
+    if not field.occupied.size:
+        return
+    h, shape = field.resolution, field.occupied.shape
+    edges = [field.origin[a] + h * np.arange(shape[a] + 1) for a in range(3)]
+    level = np.flatnonzero((edges[2][1:] > low) & (edges[2][:-1] < high))
+    block = [max(1, -(-shape[a] // MOST_QUADS)) for a in (0, 1)]
+    starts = [np.arange(0, shape[a], block[a]) for a in (0, 1)]
+    grid = np.stack(np.meshgrid(*(np.append(edges[a][starts[a]], edges[a][-1]) for a in (0, 1)), indexing="ij"))
+    page = np.einsum("aij,ab->bij", grid, view[:2])
+    if radius > 0.0 and len(level):
+        near = field.distances[:, :, level[0] : level[-1] + 2].min(axis=2)
+        places, inside, beyond = [], [], []
+        for a in (0, 1):  # the lattice's corners and some outside, which are farther by the way there
+            margin = int(np.ceil(radius / h / block[a])) + 1
+            place = block[a] * np.arange(-margin, -(-shape[a] // block[a]) + margin + 1)
+            places.append(place)
+            inside.append(np.clip(place, 0, shape[a]))
+            beyond.append(h * (place - inside[a]))
+        halo = np.sqrt(np.maximum(near[np.ix_(*inside)], 0.0) ** 2 + beyond[0][:, None] ** 2 + beyond[1] ** 2)
+        x, y = np.meshgrid(*(field.origin[a] + h * places[a] for a in (0, 1)), indexing="ij")
+        around = np.einsum("aij,ab->bij", np.stack([x, y]), view[:2])
+        axes.contourf(*around, halo, levels=[-1.0, radius], colors=[HALO], alpha=0.6)
+    for columns, alpha in ((field.occupied, 0.3), (field.occupied[:, :, level], 0.9)):
+        met = np.logical_or.reduceat(np.logical_or.reduceat(columns.any(axis=2), starts[0], 0), starts[1], 1)
+        axes.pcolormesh(*page, np.where(met, 1.0, np.nan), cmap=_plain(), alpha=alpha, linewidth=0, rasterized=True)
+
+
+def _draw_voxels_beside(axes: Axes, world: World, points: FloatArray, gone: FloatArray, sign: float) -> None:
+    """The voxels above and below each point of the path."""
+    field = world.scene.field
+    if not field.occupied.size:
+        return
+    column = np.floor((points[:-1] - field.origin) / field.resolution).astype(np.int64)
+    over = ((column >= 0) & (column < field.occupied.shape))[:, :2].all(axis=1)
+    met = np.zeros((len(column), field.occupied.shape[2]))
+    met[over] = field.occupied[column[over, 0], column[over, 1]]
+    z = sign * (field.origin[2] + field.resolution * np.arange(met.shape[1] + 1))
+    axes.pcolormesh(gone, z, np.where(met > 0, 1.0, np.nan).T, cmap=_plain(), alpha=0.55, linewidth=0, rasterized=True)
+
+
+def _plain() -> Colormap:
+    from matplotlib.colors import ListedColormap
+
+    return ListedColormap([SOLID])
+
+
+def _height(solid: Solid) -> tuple[float, float]:
     if isinstance(solid, Box):
         return solid.lower[2], solid.upper[2]
-    if isinstance(solid, Cylinder):
+    if isinstance(solid, Cylinder | Prism):
         return solid.z
     return solid.centre[2] - solid.radius, solid.centre[2] + solid.radius
 
 
-def _outline(solid: Obstacle, grown: float, view: FloatArray, **style: Any) -> Patch:
+def _outline(solid: Solid, grown: float, view: FloatArray, **style: Any) -> Patch:
     """A solid's shadow from above, grown by the radius (with round corners)."""
-    from matplotlib.patches import Circle, FancyBboxPatch
+    from matplotlib.patches import Circle, FancyBboxPatch, PathPatch
+    from matplotlib.path import Path as Outline
 
+    if isinstance(solid, Prism):
+        page = np.array([(x, y, 0.0) for x, y in solid.corners]) @ view
+        parts = [Outline(page, closed=False)]
+        for a, b in zip(page, np.roll(page, -1, axis=0), strict=True) if grown > 0.0 else ():
+            aside = grown * np.array([a[1] - b[1], b[0] - a[0]]) / np.hypot(*(b - a))
+            parts += [Outline.circle(a, grown), Outline([a - aside, b - aside, b + aside, a + aside])]
+        rings = [_turned(np.asarray(ring)) for part in parts for ring in part.to_polygons(closed_only=False)]
+        return PathPatch(Outline.make_compound_path(*(Outline(ring, closed=True) for ring in rings)), **style)
     if isinstance(solid, Cylinder | Sphere):
         x, y = np.array([*solid.centre[:2], 0.0]) @ view
         return Circle((x, y), solid.radius + grown, **style)
@@ -154,10 +222,21 @@ def _outline(solid: Obstacle, grown: float, view: FloatArray, **style: Any) -> P
     return FancyBboxPatch((low[0], low[1]), size[0], size[1], boxstyle=shape, mutation_scale=1, **style)
 
 
-def _slice(solid: Obstacle, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _turned(ring: FloatArray) -> FloatArray:
+    """A closed ring (m, 2) of points, counter-clockwise: rings that overlap are filled once if they turn alike."""
+    ring = ring if (ring[0] == ring[-1]).all() else np.concatenate([ring, ring[:1]])
+    area = float((ring[:-1, 0] * ring[1:, 1] - ring[1:, 0] * ring[:-1, 1]).sum())
+    return ring if area > 0.0 else ring[::-1]
+
+
+def _slice(solid: Solid, points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Lower and upper z (m,) [m] of a solid along the vertical through each point; NaN where it is not met."""
     if isinstance(solid, Box):
         met = ((points[:, :2] >= solid.lower[:2]) & (points[:, :2] <= solid.upper[:2])).all(axis=1)
+    elif isinstance(solid, Prism):
+        from matplotlib.path import Path as Outline
+
+        met = Outline(np.array(solid.corners)).contains_points(points[:, :2])
     else:
         away = np.hypot(points[:, 0] - solid.centre[0], points[:, 1] - solid.centre[1])
         met = away <= solid.radius
