@@ -2,10 +2,12 @@
 
     fan of bows -> HAOAROA on the spline's cost -> L-BFGS on the distinct best -> certificate
 
-When none of the fan can be proved, a search graph gives the way round and the same polish follows it, more closely from
-try to try.
+When none of the fan can be proved, it is asked whether there is a way at all (`enclosure`); if so, a search graph gives
+those that pass the obstacles differently (`guide`), and the same polish follows them, more closely from try to try.
 """
 
+import itertools
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -17,7 +19,8 @@ from planner.bspline import DEGREE, FloatArray, clamped_knots, evaluate
 from planner.certificate import certify, end_needed, needed
 from planner.cost import FIXED, SAMPLES, Grid, SplineCost, build_grid
 from planner.descent import polish, search
-from planner.guide import guide
+from planner.enclosure import PITCHES, apart
+from planner.guide import Guide, Guides
 from planner.query import Query
 from planner.search.asktell import POPULATION
 from planner.search.haoaroa import Haoaroa
@@ -41,6 +44,12 @@ STEP = 0.5
 """Along a guide a step of the polish is at most this much of the reach, lest the curve jump to a sheet's other side."""
 STIFFER = (1.0, 4.0, 32.0)
 """Factors on the obstacle weight, tried in turn until a curve is proved."""
+SIDES = 3
+"""Ways past the obstacles that are followed on one lattice when the first cannot be proved."""
+WORTH = 1.1
+"""How much longer than a way that is proved another may be to be followed too: its curve may be the shorter."""
+LATTICES = 2
+"""Lattices that show a way, and whose ways are followed."""
 
 
 @dataclass(slots=True)
@@ -111,17 +120,61 @@ class _Search:
         self.grid: Grid | None = None  # for the widest reach so far
         self.grid_reach = 0.0
         self.refused: list[FloatArray] = []
+        self.shortest_way = math.inf  # of the search graph's [m]
 
     def shapes(self) -> Iterator[Shape]:
         query, effort = self.query, self.effort
         cost = self.spline_cost(query.distance, Try(SPACING, np.inf, np.inf), MOST)
-        yield from sorted(self.prove_all(self.search(cost), cost), key=lambda shape: shape.value)
+        candidates = self.search(cost)
+        yield from self.prove_all(itertools.islice(candidates, ELITES), cost)
         effort.guided = True
-        way = guide(self.world, query.start, query.goal, self.radius)
-        for how in TRIES if len(way.path) else ():
-            cost = self.spline_cost(way.length, how, MOST_GUIDED)
-            yield from sorted(self.follow(along_path(way.path, cost.n), cost), key=lambda shape: shape.value)
-        raise errors.NoPathFound(effort.tried, effort.evaluations, self.shortfall(), self.radius, way.length, way.width)
+        guides = Guides(self.world, query.start, query.goal, self.radius)
+        yield from self.along_guides(guides)
+        yield from self.prove_all(candidates, cost)
+        raise self.no_path(guides, proved=False)
+
+    def along_guides(self, guides: Guides) -> Iterator[Shape]:
+        """Shapes that follow ways of the search graph, best first, from the coarsest lattice that leads to one.
+
+        Raises NoPathFound as soon as it is proved that there is none; the quick proofs are tried first.
+        """
+        self.look_for_proof(guides, 0, 1)
+        followed = 0
+        while not guides.finest and followed < LATTICES:
+            guides.refine()
+            first = guides.another()
+            if first is not None:
+                followed += 1
+                self.shortest_way = min(self.shortest_way, first.length)
+                yield from self.sides(guides, first)
+            if guides.level == 0:
+                self.look_for_proof(guides, 1, 5)
+        self.look_for_proof(guides, 5, len(PITCHES))
+
+    def sides(self, guides: Guides, first: Guide) -> list[Shape]:
+        """What comes of the first way on this lattice and of those on other sides of the obstacles, best first."""
+        ways, found = [first], list[tuple[float, Shape]]()
+        for how in TRIES:
+            for way in ways:
+                found += self.follow(way, how)
+            if found:
+                break
+            if len(ways) == 1:
+                others = (guides.another() for _ in range(SIDES - 1))
+                ways += [way for way in others if way is not None]
+        if found and len(ways) == 1:
+            other = guides.another(WORTH * first.length)
+            found += [] if other is None else self.follow(other, how)
+        return [shape for _, shape in sorted(found, key=lambda pair: pair[0])]
+
+    def look_for_proof(self, guides: Guides, first: int, last: int) -> None:
+        if apart(self.world, self.query.start, self.query.goal, self.radius, PITCHES[first:last]):
+            raise self.no_path(guides, proved=True)
+
+    def no_path(self, guides: Guides, proved: bool) -> errors.NoPathFound:
+        effort = self.effort
+        tried, evaluations, lack = effort.tried, effort.evaluations, self.shortfall()
+        return errors.NoPathFound(tried, evaluations, lack, self.radius, self.shortest_way, guides.width, proved=proved)
 
     def spline_cost(self, length: float, how: Try, most: int) -> SplineCost:
         n = int(np.clip(round(length / how.spacing) + DEGREE, FEWEST, most))
@@ -164,7 +217,10 @@ class _Search:
                 yield ranked[i].copy()
 
     def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost) -> list[Shape]:
-        """Polish the seeds, most promising first, and keep what can be proved; stop after ELITES once something is."""
+        """Polish seeds, most promising first; what can be proved, best first. Stop after ELITES once something is.
+
+        A curve that leads right through a solid is given up: weighing obstacles more pushes it from both sides.
+        """
         found: list[Shape] = []
         for k, seed in enumerate(seeds):
             if k >= ELITES and found:
@@ -179,20 +235,27 @@ class _Search:
                     self.effort.certified += 1
                     found.append(shape_of(cost, x))
                     break
-            else:
-                self.refused.append(cost.control_points(x))
-        return found
+                if factor == STIFFER[-1] or self.least_distance(cost.control_points(x), 4 * cost.n) < 0.0:
+                    self.refused.append(cost.control_points(x))
+                    break
+        return sorted(found, key=lambda shape: shape.value)
 
-    def follow(self, x: FloatArray, cost: SplineCost) -> list[Shape]:
-        """Polish a guide's seed, obstacles at their stiffest first, so that it stays on the guide's side of them."""
-        found: list[Shape] = []
+    def follow(self, way: Guide, how: Try) -> list[tuple[float, Shape]]:
+        """Polish the curve along a way, obstacles at their stiffest first, so that it stays on the way's side of them.
+
+        What is proved comes with its J_stretch + J_smooth in a scale common to all ways [m^2].
+        """
+        cost = self.spline_cost(way.length, how, MOST_GUIDED)
+        x = along_path(way.path, cost.n)
+        found: list[tuple[float, Shape]] = []
         self.effort.tried += 1
         for factor in STIFFER[::-1]:
             x, evaluations = polish(cost, x, factor, longest=STEP * cost.reach)
             self.effort.evaluations += evaluations
             x = self.inside(x)
             if self.proved(cost, x):
-                found.append(shape_of(cost, x))
+                shape = shape_of(cost, x)
+                found.append((shape.value * cost.distance, shape))
             elif not found:
                 self.refused.append(cost.control_points(x))
             else:
@@ -208,14 +271,15 @@ class _Search:
         held: FloatArray = np.clip(x.reshape(-1, 3), self.lower, self.upper).ravel()
         return held
 
+    def least_distance(self, points: FloatArray, count: int) -> float:
+        """Of `count` samples of a curve to solids and walls [m]."""
+        samples = evaluate(points, clamped_knots(len(points)), np.linspace(0.0, 1.0, count))
+        return float(min(self.world.distance(samples).min(), self.world.wall_distance(samples).min()))
+
     def shortfall(self) -> float:
         """By how much the best of the unproved curves misses the radius on samples [m], for the error."""
-        least = np.inf
-        for points in self.refused:
-            samples = evaluate(points, clamped_knots(len(points)), np.linspace(0.0, 1.0, 20 * len(points)))
-            nearest = min(self.world.distance(samples).min(), self.world.wall_distance(samples).min())
-            least = min(least, max(self.radius - float(nearest), 0.0))
-        return float(least)
+        least = [self.least_distance(points, 20 * len(points)) for points in self.refused]
+        return max(self.radius - max(least), 0.0) if least else math.inf
 
 
 def shape_of(cost: SplineCost, x: FloatArray) -> Shape:

@@ -293,13 +293,25 @@ def test_a_clearance_that_takes_too_many_pieces_leaves_the_proof_of_the_radius(m
     assert 0.0 <= p.clearance <= sampled_clearance(p, WORLDS["wall"])
 
 
-def test_a_closed_room_is_not_planned_out_of() -> None:
+def test_a_closed_room_is_proved_closed() -> None:
     walls = [Box((9, 0, 0), (10, 20, 4))]
-    with pytest.raises(planner.NoPathFound, match="lacks") as caught:
+    with pytest.raises(planner.NoPathFound, match="proved unreachable on the grid") as caught:
         plan(World(BOUNDS, walls), START, GOAL, LIMITS, RADIUS)
     e = pickle.loads(pickle.dumps(caught.value))
+    assert e.proved
     assert e.tried > 0
     assert e.shortfall >= RADIUS
+    assert e.way == math.inf
+    assert str(e) == str(caught.value)
+
+
+def test_a_room_whose_door_is_narrower_than_the_search_graphs_cells_is_given_up_not_called_closed() -> None:
+    low, high = 10.0 - RADIUS - 0.005, 10.0 + RADIUS + 0.005
+    door = [Box((9, 0, 0), (10, low, 4)), Box((9, high, 0), (10, 20, 4))]
+    with pytest.raises(planner.NoPathFound, match=r"gave up after \d+ curves") as caught:
+        plan(World(BOUNDS, door), (1.0, 5.0, 1.5), (19.0, 15.0, 1.5), LIMITS, RADIUS)
+    e = pickle.loads(pickle.dumps(caught.value))
+    assert not e.proved
     assert (e.way, e.cell) == (math.inf, 0.125)
     assert "the search graph shows no way through its cells of 0.125 m" in str(e)
 
@@ -319,6 +331,7 @@ def test_a_gap_narrower_than_the_vehicle_is_not_passed() -> None:
     with pytest.raises(planner.NoPathFound) as caught:
         plan(World(BOUNDS, tight), START, GOAL, LIMITS, RADIUS)
     assert caught.value.shortfall >= 0.01 - 1e-9
+    assert caught.value.proved
 
 
 def test_misuse_is_a_value_error_that_names_what_exists() -> None:
