@@ -25,9 +25,13 @@ from planner.errors import (
     InfeasibleLimits,
     KnotError,
     NoPathFound,
+    NoTimingFound,
     PlannerError,
     StartInCollision,
     StartOutOfBounds,
+    StateBeyondLimits,
+    ViaInCollision,
+    ViaOutOfBounds,
 )
 from planner.limits import Limits
 from planner.plan import METHODS, Plan, Report, plan, warm_up
@@ -45,6 +49,7 @@ __all__ = [
     "KnotError",
     "Limits",
     "NoPathFound",
+    "NoTimingFound",
     "Plan",
     "PlannerError",
     "PointCloud",
@@ -54,7 +59,10 @@ __all__ = [
     "StartInCollision",
     "StartOutOfBounds",
     "State",
+    "StateBeyondLimits",
     "Trajectory",
+    "ViaInCollision",
+    "ViaOutOfBounds",
     "VoxelGrid",
     "World",
     "plan",

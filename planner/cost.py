@@ -81,6 +81,8 @@ class Problem(NamedTuple):
     grid: Grid
     reach: float  # c [m]
     scale: float  # k D / (c^2 samples) [1/m^2]
+    via: FloatArray  # (m, 3) points on the curve [m]
+    via_at: IntArray  # (m,) the free control points that they determine
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,15 +269,40 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
 
 
 @kernel
+def snap(x: FloatArray, p: Problem) -> None:
+    """Move the control points that via points determine: even knots give C(u_k) = (P_{i-1} + 4 P_i + P_{i+1})/6."""
+    f = p.energy.shape[0]
+    for k in range(p.via_at.size):
+        i = p.via_at[k]
+        for a in range(3):
+            before = x[3 * i - 3 + a] if i > 0 else p.points[FIXED - 1, a]
+            after = x[3 * i + 3 + a] if i < f - 1 else p.points[FIXED + f, a]
+            x[3 * i + a] = 1.5 * p.via[k, a] - 0.25 * (before + after)
+
+
+@kernel
 def cost_gradient(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
-    """J(x) [m] with its gradient [1] written into `gradient`; x (3 f,) are the free control points, row after row."""
+    """J(x) [m] with its gradient [1] written into `gradient`; x (3 f,) are the free control points, row after row.
+
+    With via points, x is moved onto them first, and the gradient is that by the other control points.
+    """
+    snap(x, p)
     energy: float = add_energy(x, gradient, p)
     obstacles: float = add_obstacles(x, gradient, p)
+    f = p.energy.shape[0]
+    for k in range(p.via_at.size):
+        i = p.via_at[k]
+        for a in range(3):
+            if i > 0:
+                gradient[3 * i - 3 + a] -= 0.25 * gradient[3 * i + a]
+            if i < f - 1:
+                gradient[3 * i + 3 + a] -= 0.25 * gradient[3 * i + a]
+            gradient[3 * i + a] = 0.0
     return energy + obstacles
 
 
 class SplineCost:
-    """The cost of curves from `start` to `goal`, at rest at both ends, with n control points.
+    """The cost of curves from `start` to `goal` with n control points.
 
     Parameters
     ----------
@@ -287,6 +314,9 @@ class SplineCost:
     length : float        D, about how long the way will be [m]; the straight distance when not given.
     softest : float       bound on m, the way in which smoothness lets the speed change [m].
     grid : Grid           of `build_grid(world, c)` with at least this reach; built when not given.
+    pinned : (6, 3)       the first and the last FIXED control points; at rest at both ends when not given [m].
+    via : (m, 3)          points on the curve [m], at the knots `via_knots` (m,), counted in spans from the start: at
+                          least 2 from each other and from the ends.
     """
 
     def __init__(
@@ -301,6 +331,9 @@ class SplineCost:
         length: float | None = None,
         softest: float = np.inf,
         grid: Grid | None = None,
+        pinned: FloatArray | None = None,
+        via: FloatArray | None = None,
+        via_knots: IntArray | None = None,
     ) -> None:
         if n <= 2 * FIXED:
             raise ValueError(f"control points: expected more than {2 * FIXED}, found {n}")
@@ -311,13 +344,15 @@ class SplineCost:
         self.ends = np.array([start, goal], dtype=np.float64)
         shape = _Shape.of(n)
         self.knots = shape.knots  # (n + 4,) on [0, 1]
-        straight = float(np.linalg.norm(self.ends[1] - self.ends[0]))
-        self.distance = max(straight if length is None else length, SHORTEST)
+        self.way = float(np.linalg.norm(self.ends[1] - self.ends[0])) if length is None else length
+        self.distance = max(self.way, SHORTEST)
         m = min(limits.speed**2 / limits.acceleration, self.distance, softest)
         self._stretch: FloatArray = shape.stretch / self.distance  # Eq. 37
         self._smooth: FloatArray = (m / (self.distance + m)) ** 2 * shape.smoothness / self.distance  # Eq. 38
         whole: FloatArray = self._stretch + self._smooth  # Eq. 36 without its obstacles
-        points: FloatArray = np.repeat(self.ends, (FIXED, n - FIXED), axis=0)
+        self.pinned = np.repeat(self.ends, FIXED, axis=0) if pinned is None else pinned
+        points: FloatArray = np.repeat(self.pinned[[0, -1]], (FIXED, n - FIXED), axis=0)
+        points[:FIXED], points[n - FIXED :] = self.pinned[:FIXED], self.pinned[FIXED:]
         free = slice(FIXED, n - FIXED)
         ends: FloatArray = points - self.ends[0]
         ends[free] = 0.0
@@ -338,8 +373,32 @@ class SplineCost:
             grid=build_grid(world, reach) if grid is None else grid,
             reach=reach,
             scale=weight * self.distance / (reach**2 * spans * SAMPLES),  # Eq. 39's k and its du
+            via=np.empty((0, 3)) if via is None else via,
+            via_at=np.empty(0, dtype=np.int64) if via_knots is None else via_knots + 1 - FIXED,
         )
-        self.inverse_energy: FloatArray = np.asarray(np.linalg.inv(self.problem.energy), dtype=np.float64)
+        self.inverse_energy = self._inverse_energy()
+
+    def _inverse_energy(self) -> FloatArray:
+        """Inverse (f, f) of the quadratic form on what is free; rows that via points determine are zero."""
+        energy, at = self.problem.energy, self.problem.via_at
+        if not at.size:
+            return np.asarray(np.linalg.inv(energy), dtype=np.float64)
+        f = len(energy)
+        onto = np.eye(f)
+        for i in at:
+            onto[i, i] = 0.0
+            onto[i, [j for j in (i - 1, i + 1) if 0 <= j < f]] = -0.25
+        kept = np.setdiff1d(np.arange(f), at)
+        onto = onto[:, kept]
+        inverse = np.zeros((f, f))
+        inverse[np.ix_(kept, kept)] = np.linalg.inv(onto.T @ energy @ onto)
+        return inverse
+
+    def snapped(self, x: FloatArray) -> FloatArray:
+        """The free control points x (3 f,) with those that via points determine moved onto them."""
+        moved = np.array(x, dtype=np.float64)
+        snap(moved, self.problem)
+        return moved
 
     def stiffened(self, factor: float) -> Problem:
         """The same problem with obstacles weighed `factor` times as much."""
@@ -348,11 +407,12 @@ class SplineCost:
     def __call__(self, x: FloatArray) -> tuple[float, FloatArray]:
         """J [m] and its gradient (3 f,) at the free control points x (3 f,)."""
         gradient = np.empty(self.size)
-        return float(cost_gradient(np.ascontiguousarray(x, dtype=np.float64), gradient, self.problem)), gradient
+        return float(cost_gradient(np.array(x, dtype=np.float64), gradient, self.problem)), gradient
 
     def control_points(self, x: FloatArray) -> FloatArray:
         """All control points (n, 3) [m] from the free ones (3 f,)."""
-        points = np.repeat(self.ends, (FIXED, self.n - FIXED), axis=0)
+        points = np.empty((self.n, 3))
+        points[:FIXED], points[self.n - FIXED :] = self.pinned[:FIXED], self.pinned[FIXED:]
         points[FIXED : self.n - FIXED] = np.asarray(x).reshape(-1, 3)
         return points
 

@@ -3,10 +3,14 @@
     PlannerError
       KnotError             a knot vector is not one
       InfeasibleLimits      a limit that no vehicle has (also a ValueError)
+      StateBeyondLimits     a velocity or acceleration at an end beyond the limit on it (also a ValueError)
       EndpointError
         StartInCollision    GoalInCollision       closer to an obstacle than the radius
+        ViaInCollision                            `index` tells which of the via points
         StartOutOfBounds    GoalOutOfBounds       closer to a wall of the map than the radius, or beyond it
+        ViaOutOfBounds
       NoPathFound           there is no way (proved), or the search ended without a certified trajectory (not proved)
+        NoTimingFound       curves there are, but none that can be flown from the state at the start
 
 Every number in a message is also an attribute. All of them survive pickling, since plans are made in worker processes:
 the constructor's arguments are exactly `Exception.args`, and the sentence is built when it is read.
@@ -45,6 +49,26 @@ class InfeasibleLimits(PlannerError, ValueError):
 
     def __str__(self) -> str:
         return f"limit {self.name}: expected a number from {self.least:g} to {self.most:g}, found {self.value:g}"
+
+
+class StateBeyondLimits(PlannerError, ValueError):
+    """What is asked of an end, `name`, has the norm `value`, more than `limit` (SI units)."""
+
+    def __init__(self, name: str, value: float, limit: float) -> None:
+        super().__init__(name, value, limit)
+        self.name, self.value, self.limit = name, value, limit
+
+    @property
+    def excess(self) -> float:
+        """By how much it is beyond."""
+        return self.value - self.limit
+
+    def __str__(self) -> str:
+        unit = "m/s^2" if "acceleration" in self.name else "m/s"
+        return (
+            f"{self.name.replace('_', ' ')} of {self.value:.6g} {unit} is {self.excess:.3g} {unit} beyond "
+            f"the limit of {self.limit:g} {unit}"
+        )
 
 
 class EndpointError(PlannerError):
@@ -119,6 +143,53 @@ class GoalOutOfBounds(_OutOfBounds):
     which = "goal"
 
 
+class ViaInCollision(_InCollision):
+    """Via point number `index` is closer than `radius` to obstacle number `obstacle` [m]."""
+
+    which = "via point"
+
+    def __init__(
+        self,
+        point: Point,
+        obstacle: int,
+        kind: str,
+        distance: float,
+        radius: float,
+        margin: float = 0.0,
+        index: int = 0,
+    ) -> None:
+        super().__init__(point, obstacle, kind, distance, radius, margin)
+        self.args = (point, obstacle, kind, distance, radius, margin, index)
+        self.index = index
+
+    def __str__(self) -> str:
+        return super().__str__().replace(self.which, f"{self.which} {self.index}", 1)
+
+
+class ViaOutOfBounds(_OutOfBounds):
+    """Via point number `index` is beyond a wall of the map, or nearer to it than `radius` [m]."""
+
+    which = "via point"
+
+    def __init__(
+        self,
+        point: Point,
+        axis: int,
+        side: str,
+        bound: float,
+        distance: float,
+        radius: float,
+        margin: float = 0.0,
+        index: int = 0,
+    ) -> None:
+        super().__init__(point, axis, side, bound, distance, radius, margin)
+        self.args = (point, axis, side, bound, distance, radius, margin, index)
+        self.index = index
+
+    def __str__(self) -> str:
+        return super().__str__().replace(self.which, f"{self.which} {self.index}", 1)
+
+
 class NoPathFound(PlannerError):
     """There is no curve, or none could be proved within the budget; `proved` tells which.
 
@@ -156,4 +227,23 @@ class NoPathFound(PlannerError):
         return (
             f"no path found: gave up after {self.tried} curves polished with {self.evaluations} evaluations, none "
             f"keeps {self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}; {graph}"
+        )
+
+
+class NoTimingFound(NoPathFound):
+    """`curves` were found that keep the radius, but none could be flown from the given state within the limits.
+
+    The velocity asked at an end is too much for the room there is to brake or to turn: see `speed` and
+    `acceleration`, at the start [m/s, m/s^2].
+    """
+
+    def __init__(self, curves: int, evaluations: int, speed: float, acceleration: float, radius: float) -> None:
+        super().__init__(curves, evaluations, 0.0, radius, math.inf, math.inf)
+        self.args = (curves, evaluations, speed, acceleration, radius)
+        self.curves, self.speed, self.acceleration = curves, speed, acceleration
+
+    def __str__(self) -> str:
+        return (
+            f"no timing found: {self.curves} curves keep {self.radius:.3f} m, but from {self.speed:.3g} m/s and "
+            f"{self.acceleration:.3g} m/s^2 at the start none of them can be flown within the limits"
         )

@@ -40,6 +40,8 @@ IDLE = 1.0
 """A stage ends when a step lowers the barrier by less; that is worth a gap's fraction of one over the constraints."""
 WIDER = 1.02
 """s beyond what the limits need at least, while it is above 1."""
+EVEN_WIDE = 1.0
+"""Meanwhile the evenness weighs no more than this."""
 BAND = 5
 """Diagonals kept of the symmetric Hessian: row i holds its columns i .. i + 4."""
 
@@ -274,8 +276,10 @@ def shorten(
     t, last = FIRST * count / total, count / (gap * total)
     derivatives(points, e, V, A, J)
     wide = stretch_needed(V, A, J, limits, held)
+    even = evenness
     if wide >= 1.0:
-        t, wide = count / total, WIDER * wide
+        wide *= WIDER
+        t, even = 0.1 * count / total, min(evenness, EVEN_WIDE)
     else:
         wide = 1.0
     taken = 0
@@ -283,9 +287,9 @@ def shorten(
         taken += 1
         for k in range(3):
             squared[k] = (limits[k] * wide ** (k + 1)) ** 2
-        _newton_system(e, rate, evenness, t, V, A, J, squared, held, g, H)
+        _newton_system(e, rate, even, t, V, A, J, squared, held, g, H)
         decrement = _solve(H, g, step)
-        before = _barrier(e, rate, evenness, t, V, A, J, squared, held)
+        before = _barrier(e, rate, even, t, V, A, J, squared, held)
         if not (decrement > 0.0 and before < np.inf):
             break
         part, after = 1.0, np.inf
@@ -296,7 +300,7 @@ def shorten(
             for i in range(PAD, m + PAD):
                 new[i] = e[i] - part * step[i]
             derivatives(points, new, V, A, J)
-            after = _barrier(new, rate, evenness, t, V, A, J, squared, held)
+            after = _barrier(new, rate, even, t, V, A, J, squared, held)
             if after <= before - 1e-4 * part * decrement:
                 break
             part *= 0.5
@@ -308,7 +312,9 @@ def shorten(
             narrower = WIDER * stretch_needed(V, A, J, limits, held)
             if not narrower < wide and before - after < IDLE:
                 break
-            wide = max(1.0, min(wide, narrower)) if narrower > WIDER else 1.0
+            wide = min(wide, narrower)
+            if narrower <= WIDER:
+                wide, t, even = 1.0, count / np.sum(e), evenness
             continue
         if not before - after >= IDLE:
             if t >= last:

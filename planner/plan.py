@@ -6,7 +6,8 @@ A method (`shape` has HAOAROA's, `baselines` its rivals') finds curves in space;
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -28,6 +29,13 @@ Finder = Callable[[Query, Effort], Iterator[Shape]]
 becomes the plan, else the last; a method that wants no unproved plan raises NoPathFound in the end."""
 FINDERS: dict[str, Finder] = {"haoaroa": haoaroa}
 METHODS = tuple(FINDERS)
+MOST_VIA = 25
+PACES = (1.0, 1.6, 2.5, 4.0)
+"""Of curves with moving ends, tried in turn until one can be flown: with more time their ends are longer."""
+CURVES = 4
+"""Looked at for each pace."""
+HAIR = 1e-11
+"""Of a limit, what a state at it is short of, so that rounding does not put it beyond."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +56,7 @@ class Report:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A trajectory, at rest at both ends, and what was proved about it."""
+    """A trajectory and what was proved about it."""
 
     trajectory: Trajectory
     length: float  # [m]
@@ -69,8 +77,13 @@ def plan(
     radius: float,
     seed: int = 0,
     method: str = "haoaroa",
+    *,
+    start_velocity: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
+    start_acceleration: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
+    goal_velocity: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
+    via: Sequence[Sequence[float] | FloatArray] | FloatArray = (),
 ) -> Plan:
-    """Plan from rest at `start` to rest at `goal`.
+    """Plan from `start` to `goal`, from rest to rest unless told otherwise.
 
     Parameters
     ----------
@@ -80,13 +93,20 @@ def plan(
     radius : float          distance that the curve keeps from obstacles and from the walls of the map [m].
     seed : int              same arguments and seed: same plan, `cpu_ms` apart.
     method : str            one of METHODS.
+    start_velocity, start_acceleration : (3,)    at the start [m/s, m/s^2].
+    goal_velocity : (3,)    at the goal, which is passed without acceleration [m/s].
+    via : (m, 3)            points that the curve passes, in this order, MOST_VIA of them at most [m].
 
     Raises
     ------
-    ValueError : an unknown method, a radius that is not finite and at least 0, or a point that is not three numbers.
+    ValueError : an unknown method, a radius that is not finite and at least 0, a point that is not three numbers, or
+        too many via points.
+    StateBeyondLimits : a velocity or an acceleration beyond its limit, and by how much.
     StartInCollision, GoalInCollision, StartOutOfBounds, GoalOutOfBounds : which obstacle or wall, and by how much; an
         end at the radius exactly is refused too, since rounding leaves nothing to prove it by.
-    NoPathFound : nothing could be proved within the budget.
+    ViaInCollision, ViaOutOfBounds : the same of a via point, and which.
+    NoPathFound : nothing could be proved within the budget; as NoTimingFound, curves there are, but the limits do not
+        let them be flown from the velocity at the start or to that at the goal.
     """
     watch = Stopwatch()
     if method not in METHODS:
@@ -96,14 +116,61 @@ def plan(
     a, b = as_point("start", start), as_point("goal", goal)
     check_endpoint(world, a, radius, errors.StartInCollision, errors.StartOutOfBounds)
     check_endpoint(world, b, radius, errors.GoalInCollision, errors.GoalOutOfBounds)
-    query, effort = Query(world, np.array(a), np.array(b), limits, float(radius), seed), Effort()
+    through = [as_point(f"via point {index}", point) for index, point in enumerate(via)]
+    if len(through) > MOST_VIA:
+        raise ValueError(f"via: expected at most {MOST_VIA} points, found {len(through)}")
+    for index, point in enumerate(through):
+        check_endpoint(
+            world,
+            point,
+            radius,
+            partial(errors.ViaInCollision, index=index),
+            partial(errors.ViaOutOfBounds, index=index),
+        )
+    query = Query(
+        world,
+        np.array(a),
+        np.array(b),
+        limits,
+        float(radius),
+        seed,
+        start_velocity=_state("start_velocity", start_velocity, limits.speed),
+        start_acceleration=_state("start_acceleration", start_acceleration, limits.acceleration),
+        goal_velocity=_state("goal_velocity", goal_velocity, limits.speed),
+        via=np.array(through).reshape(-1, 3),
+    )
+    effort, curves = Effort(), 0
+    refusal: errors.NoPathFound | None = None
     made: Plan | None = None
-    for shape in FINDERS[method](query, effort):
-        made = finish(query, shape, effort, method, watch)
-        if made.certified:
-            break
-    assert made is not None, f"{method} hands over a shape or raises"
-    return made
+    for pace in PACES if query.moving else PACES[:1]:
+        try:
+            for k, shape in enumerate(FINDERS[method](replace(query, pace=pace), effort)):
+                curves += 1
+                made = finish(query, shape, effort, method, watch) or made
+                if made is not None and made.certified:
+                    return made
+                if query.moving and k + 1 >= CURVES:
+                    break
+        except errors.NoPathFound as error:
+            refusal = error
+            if error.proved:
+                break
+    if made is not None and refusal is None:
+        return made
+    if curves and query.moving:
+        speed, acceleration = np.linalg.norm(query.start_velocity), np.linalg.norm(query.start_acceleration)
+        raise errors.NoTimingFound(curves, effort.evaluations, float(speed), float(acceleration), query.radius)
+    assert refusal is not None, f"{method} hands over a shape or raises"
+    raise refusal
+
+
+def _state(name: str, value: Sequence[float] | FloatArray, limit: float) -> FloatArray:
+    """A velocity or acceleration (3,) within its limit; one at the limit a hair below, which a proof needs."""
+    vector = np.array(as_point(name, value))
+    norm = float(np.linalg.norm(vector))
+    if norm > limit * (1.0 + HAIR):
+        raise errors.StateBeyondLimits(name, norm, limit)
+    return vector * min(1.0, limit * (1.0 - HAIR) / norm) if norm > 0.0 else vector
 
 
 def warm_up() -> None:
@@ -119,8 +186,8 @@ def check_endpoint(
     world: World,
     point: Point,
     radius: float,
-    collision: type[errors.StartInCollision] | type[errors.GoalInCollision],
-    outside: type[errors.StartOutOfBounds] | type[errors.GoalOutOfBounds],
+    collision: Callable[..., errors.EndpointError],
+    outside: Callable[..., errors.EndpointError],
 ) -> None:
     """Raise `outside` or `collision` unless the point keeps what a proof needs from every wall and obstacle."""
     need = end_needed(world, radius)
@@ -137,11 +204,12 @@ def check_endpoint(
         raise collision(point, index, kind, nearest, radius, need - radius)
 
 
-def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopwatch) -> Plan:
-    """Time a shape, prove what can be proved about it, and report."""
+def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopwatch) -> Plan | None:
+    """Time a shape, prove what can be proved about it, and report; None when the limits cannot be kept on it."""
     world, radius = query.world, query.radius
     made: tuple[Motion, Certificate] | None = None
-    for motion in timings(shape.control_points, shape.knots, query.limits):
+    knots, duration = shape.knots, shape.duration
+    for motion in timings(shape.control_points, knots, query.limits, duration, query.via, shape.via_knots):
         proof = certify(motion.control_points, motion.knots, world, radius)
         if not proof.certified:  # its least distance took too many pieces; the radius took few
             proof = certify(motion.control_points, motion.knots, world, radius, full=False)
@@ -149,7 +217,8 @@ def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopw
             made = motion, proof
         if proof.certified:
             break
-    assert made is not None, "a shape at rest at both ends can be flown slowly"
+    if made is None:
+        return None
     motion, proof = made
     trajectory = Trajectory(motion.control_points, motion.knots)
     measures = trajectory.measures()

@@ -10,7 +10,8 @@ soft modes of the stretch.
 import numpy as np
 
 from planner.bspline import FloatArray
-from planner.cost import FIXED
+from planner.cost import FIXED, IntArray
+from planner.query import Query
 
 SIDE = 6
 """Bows on each level side."""
@@ -82,6 +83,64 @@ def fan(
     others = line + np.einsum("sef,ea->sfa", waves, room[:, None] * np.array([e2, e3]))
     seeds: FloatArray = np.clip(np.concatenate([bows, others]), lower, upper).reshape(count, 3 * f)
     return seeds
+
+
+def fan_through(
+    corners: FloatArray,
+    lower: FloatArray,
+    upper: FloatArray,
+    at: IntArray,
+    n: int,
+    count: int,
+    generator: np.random.Generator,
+) -> FloatArray:
+    """`count` seeds (count, 3 (n - 6)) through via points: each leg has its own fan, mixed by chance but for the first.
+
+    Parameters
+    ----------
+    corners : (m + 2, 3)    start, via points, goal [m].
+    at : (m,)               free control points nearest to the via points; those get the points themselves.
+    """
+    f = n - 2 * FIXED
+    seeds = np.empty((count, f, 3))
+    firsts = np.concatenate([[0], at + 1])
+    ends = np.concatenate([at, [f]])
+    for leg, (first, end) in enumerate(zip(firsts, ends, strict=True)):
+        few = int(end - first)
+        rows = fan(corners[leg], corners[leg + 1], lower, upper, few + 2 * FIXED, count, generator)
+        order = np.arange(count)
+        if leg > 0:
+            order[count // 4 :] = count // 4 + generator.permutation(count - count // 4)
+        seeds[:, first:end] = rows[order].reshape(count, few, 3)
+        if end < f:
+            seeds[:, end] = corners[leg + 1]
+    return seeds.reshape(count, 3 * f)
+
+
+def swerve(query: Query, n: int, length: float) -> FloatArray:
+    """What moving ends add to a seed (3 (n - 6),) [m]: quintic terms that start with a velocity or an acceleration.
+
+    Velocity along the way, up to its mean, is what evenly spaced seeds have anyway.
+    """
+    f = n - 2 * FIXED
+    s = (np.arange(1, f + 1) / (f + 1))[:, None]
+    T = query.duration(length)
+    mean = (query.goal - query.start) / T
+    first, last = _beyond(query.start_velocity, mean), _beyond(query.goal_velocity, mean)
+    added: FloatArray = (
+        T * first * (s - 6 * s**3 + 8 * s**4 - 3 * s**5)
+        + 0.5 * T**2 * query.start_acceleration * (s**2 - 3 * s**3 + 3 * s**4 - s**5)
+        + T * last * (-4 * s**3 + 7 * s**4 - 3 * s**5)
+    )
+    return added.ravel()
+
+
+def _beyond(velocity: FloatArray, mean: FloatArray) -> FloatArray:
+    """A velocity less its part along `mean`, which counts from none to all of it."""
+    square = float(mean @ mean)
+    share = min(max(float(velocity @ mean) / square, 0.0), 1.0) if square > 0.0 else 0.0
+    rest: FloatArray = velocity - share * mean
+    return rest
 
 
 def along_path(path: FloatArray, n: int) -> FloatArray:

@@ -8,7 +8,7 @@ those that pass the obstacles differently (`guide`), and the same polish follows
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,19 +17,21 @@ import numpy as np
 from planner import errors
 from planner.bspline import DEGREE, FloatArray, clamped_knots, evaluate
 from planner.certificate import certify, end_needed, needed
-from planner.cost import FIXED, SAMPLES, Grid, SplineCost, build_grid
+from planner.cost import FIXED, SAMPLES, Grid, IntArray, SplineCost, build_grid
 from planner.descent import polish, search
 from planner.enclosure import PITCHES, apart
-from planner.guide import Guide, Guides
+from planner.guide import Guide, Guides, guide
 from planner.query import Query
 from planner.search.asktell import POPULATION
 from planner.search.haoaroa import Haoaroa
-from planner.seeds import along_path, fan
+from planner.seeds import along_path, fan, fan_through, swerve
 
 SPACING = 1.4
 """Aimed distance between control points [m]."""
 FEWEST, MOST, MOST_GUIDED = 16, 120, 400
 """Control points of a plan; along a guide there may be more, since a polish costs less than a search."""
+LEG = 4
+"""Spans between two via points at least."""
 ITERATIONS = 15
 """Of HAOAROA: four of exploration, the rest of exploitation. It has to find the right side of the obstacles, not the
 minimum: the polish is the better finisher. On each family of benchmark worlds 12, 15, 20 and 30 iterations end in mean
@@ -72,6 +74,8 @@ class Shape:
     stretch: float  # J_stretch [m]
     smoothness: float  # J_smooth [m]
     obstacle: float  # J_obstacle, at its first weight [m]
+    duration: float | None = None  # what the ends' points are set out for [s]; None: at rest at both ends
+    via_knots: IntArray | None = None  # (m,) knots, in spans from the start, where the via points are passed
 
     @property
     def value(self) -> float:
@@ -124,14 +128,30 @@ class _Search:
 
     def shapes(self) -> Iterator[Shape]:
         query, effort = self.query, self.effort
-        cost = self.spline_cost(query.distance, Try(SPACING, np.inf, np.inf), MOST)
+        cost = self.spline_cost(query.legs, Try(SPACING, np.inf, np.inf), MOST)
         candidates = self.search(cost)
         yield from self.prove_all(itertools.islice(candidates, ELITES), cost)
         effort.guided = True
+        if len(query.via):
+            yield from self.leg_by_leg()
         guides = Guides(self.world, query.start, query.goal, self.radius)
         yield from self.along_guides(guides)
         yield from self.prove_all(candidates, cost)
         raise self.no_path(guides, proved=False)
+
+    def leg_by_leg(self) -> Iterator[Shape]:
+        """Shapes that follow the search graph's way from via point to via point; NoPathFound when there are no more."""
+        legs = []
+        for a, b in itertools.pairwise(self.query.corners):
+            legs.append(guide(self.world, a, b, self.radius))
+            if not len(legs[-1].path):
+                raise self.no_path(legs[-1], proved=apart(self.world, a, b, self.radius, PITCHES))
+        way = Guide(np.concatenate([leg.path for leg in legs]), max(leg.width for leg in legs))
+        self.shortest_way = way.length
+        for how in TRIES:
+            found = self.follow(way, how, [leg.length for leg in legs])
+            yield from (shape for _, shape in sorted(found, key=lambda pair: pair[0]))
+        raise self.no_path(way, proved=False)
 
     def along_guides(self, guides: Guides) -> Iterator[Shape]:
         """Shapes that follow ways of the search graph, best first, from the coarsest lattice that leads to one.
@@ -171,13 +191,15 @@ class _Search:
         if apart(self.world, self.query.start, self.query.goal, self.radius, PITCHES[first:last]):
             raise self.no_path(guides, proved=True)
 
-    def no_path(self, guides: Guides, proved: bool) -> errors.NoPathFound:
+    def no_path(self, guides: Guides | Guide, proved: bool) -> errors.NoPathFound:
         effort = self.effort
         tried, evaluations, lack = effort.tried, effort.evaluations, self.shortfall()
         return errors.NoPathFound(tried, evaluations, lack, self.radius, self.shortest_way, guides.width, proved=proved)
 
-    def spline_cost(self, length: float, how: Try, most: int) -> SplineCost:
-        n = int(np.clip(round(length / how.spacing) + DEGREE, FEWEST, most))
+    def spline_cost(self, legs: Sequence[float], how: Try, most: int) -> SplineCost:
+        length = sum(legs)
+        fewest = max(FEWEST, LEG * len(legs) + DEGREE)
+        n = int(np.clip(round(length / how.spacing) + DEGREE, fewest, max(most, fewest)))
         wanted = max(self.radius + max(0.05, 0.4 * self.radius), NEAREST)
         reach = max(min(wanted, self.radius + how.buffer), length / ((n - DEGREE) * SAMPLES))
         if reach > self.grid_reach:
@@ -192,13 +214,22 @@ class _Search:
             length=length,
             softest=how.softest,
             grid=self.grid,
+            pinned=self.query.pinned(n, length),
+            via=self.query.via,
+            via_knots=knots_of_legs(legs, n - DEGREE),
         )
 
     def search(self, cost: SplineCost) -> Iterator[FloatArray]:
         """HAOAROA from the fan; the best of each candidate, best first, those near a better one left out."""
         query = self.query
-        seeds = fan(query.start, query.goal, self.lower, self.upper, cost.n, POPULATION, self.generator)
         f = cost.n - 2 * FIXED
+        if len(query.via):
+            at = cost.problem.via_at
+            seeds = fan_through(query.corners, self.lower, self.upper, at, cost.n, POPULATION, self.generator)
+        else:
+            seeds = fan(query.start, query.goal, self.lower, self.upper, cost.n, POPULATION, self.generator)
+        if query.moving:
+            seeds = np.clip(seeds + swerve(query, cost.n, cost.way), np.tile(self.lower, f), np.tile(self.upper, f))
         optimiser = Haoaroa(
             np.tile(self.lower, f),
             np.tile(self.upper, f),
@@ -230,31 +261,31 @@ class _Search:
             for factor in STIFFER:
                 x, evaluations = polish(cost, x, factor)
                 self.effort.evaluations += evaluations
-                x = self.inside(x)
+                x = self.inside(cost, x)
                 if self.proved(cost, x):
                     self.effort.certified += 1
-                    found.append(shape_of(cost, x))
+                    found.append(self.shape_of(cost, x))
                     break
                 if factor == STIFFER[-1] or self.least_distance(cost.control_points(x), 4 * cost.n) < 0.0:
                     self.refused.append(cost.control_points(x))
                     break
         return sorted(found, key=lambda shape: shape.value)
 
-    def follow(self, way: Guide, how: Try) -> list[tuple[float, Shape]]:
+    def follow(self, way: Guide, how: Try, legs: Sequence[float] | None = None) -> list[tuple[float, Shape]]:
         """Polish the curve along a way, obstacles at their stiffest first, so that it stays on the way's side of them.
 
         What is proved comes with its J_stretch + J_smooth in a scale common to all ways [m^2].
         """
-        cost = self.spline_cost(way.length, how, MOST_GUIDED)
+        cost = self.spline_cost([way.length] if legs is None else legs, how, MOST_GUIDED)
         x = along_path(way.path, cost.n)
         found: list[tuple[float, Shape]] = []
         self.effort.tried += 1
         for factor in STIFFER[::-1]:
             x, evaluations = polish(cost, x, factor, longest=STEP * cost.reach)
             self.effort.evaluations += evaluations
-            x = self.inside(x)
+            x = self.inside(cost, x)
             if self.proved(cost, x):
-                shape = shape_of(cost, x)
+                shape = self.shape_of(cost, x)
                 found.append((shape.value * cost.distance, shape))
             elif not found:
                 self.refused.append(cost.control_points(x))
@@ -266,10 +297,23 @@ class _Search:
     def proved(self, cost: SplineCost, x: FloatArray) -> bool:
         return certify(cost.control_points(x), cost.knots, self.world, self.radius, full=False).certified
 
-    def inside(self, x: FloatArray) -> FloatArray:
+    def inside(self, cost: SplineCost, x: FloatArray) -> FloatArray:
         """The free control points moved into the map: their hull then keeps the radius from its walls."""
         held: FloatArray = np.clip(x.reshape(-1, 3), self.lower, self.upper).ravel()
-        return held
+        return cost.snapped(held) if len(self.query.via) else held
+
+    def shape_of(self, cost: SplineCost, x: FloatArray) -> Shape:
+        """The curve of the free control points x (3 f,), what it costs and how it meets the query."""
+        terms, query = cost.terms(x), self.query
+        return Shape(
+            cost.control_points(x),
+            cost.knots,
+            terms.stretch,
+            terms.smoothness,
+            terms.obstacle,
+            duration=query.duration(cost.way) if query.moving else None,
+            via_knots=cost.problem.via_at + FIXED - 1 if len(query.via) else None,
+        )
 
     def least_distance(self, points: FloatArray, count: int) -> float:
         """Of `count` samples of a curve to solids and walls [m]."""
@@ -282,7 +326,12 @@ class _Search:
         return max(self.radius - max(least), 0.0) if least else math.inf
 
 
-def shape_of(cost: SplineCost, x: FloatArray) -> Shape:
-    """The curve of the free control points x (3 f,) and what it costs."""
-    terms = cost.terms(x)
-    return Shape(cost.control_points(x), cost.knots, terms.stretch, terms.smoothness, terms.obstacle)
+def knots_of_legs(legs: Sequence[float], spans: int) -> IntArray:
+    """Where via points are passed, in spans from the start (m,): by the legs' lengths, each at least LEG spans long."""
+    shares = np.cumsum(legs)[:-1] / max(sum(legs), 1e-9)
+    knots = np.round(shares * spans).astype(np.int64)
+    for k in range(len(knots)):
+        knots[k] = max(knots[k], LEG * (k + 1), knots[k - 1] + LEG if k else 0)
+    for k in range(len(knots) - 1, -1, -1):
+        knots[k] = min(knots[k], spans - LEG * (len(knots) - k), knots[k + 1] - LEG if k + 1 < len(knots) else spans)
+    return knots

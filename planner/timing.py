@@ -20,10 +20,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.bspline import DEGREE, FloatArray, clamped_knots, refine
 from planner.intervals import PAD, WIDER, shorten, stretch_of
 from planner.limits import Limits, derivative_bounds
+
+IntArray = NDArray[np.int64]
 
 SHORTEST = 0.1
 """Duration of standing still [s]: a trajectory needs a range of time even when it goes nowhere."""
@@ -32,7 +35,7 @@ PARTS = 4
 """
 MOST_INTERVALS = 600
 """Shapes with many intervals are cut less, to twice this at most, or not at all."""
-MOST_HALVINGS = 6
+MOST_HALVINGS = 8
 EVENNESS = (5.0, 50.0)
 """Weights of an even rate, tried in turn until the motion is proved: with the first a curve moves by 0.3 mm at most in
 the benchmark worlds, with the second by a tenth of that, at 1 % of the duration.
@@ -40,6 +43,10 @@ the benchmark worlds, with the second by a tenth of that, at 1 % of the duration
 GAP = 0.003
 MOST_STEPS = 60
 """Of Newton's method; from rest to rest it takes about 15."""
+ROUNDS, SPARE = 4, 0.995
+"""With via points: how often intervals are shortened and the curve moved onto the points in turn, and the part of the
+limits that the former may use.
+"""
 _ROUNDING = 1e-12
 
 
@@ -50,8 +57,41 @@ class Motion(NamedTuple):
     knots: FloatArray  # (n + 4,) clamped, from 0 [s]
 
 
+class Pins(NamedTuple):
+    """Where a curve has to pass."""
+
+    at: IntArray  # (m,) indices of knots
+    points: FloatArray  # (m, 3) [m]
+    parts: int  # intervals in a span of the shape
+
+    def onto(self, control_points: FloatArray, knots: FloatArray) -> FloatArray:
+        """The control points (n, 3) moved so that the points are met, by a bump as wide as one of the shape's own.
+
+        At a simple knot c between a, b and d, e three basis functions are not zero: the first is (d - c)^2 / ((d - b)
+        (d - a)), the last (c - b)^2 / ((d - b) (e - b)), and they sum to 1 (de Boor's recursion). Moving one alone
+        would do, but by a jerk. The shape's bumps end two spans away, so that no other via point feels one.
+        """
+        offsets = np.arange(-2 * self.parts + 1, 2 * self.parts)
+        x = np.abs(offsets / self.parts)
+        bump = np.where(x < 1.0, 4.0 - 6.0 * x**2 + 3.0 * x**3, (2.0 - x) ** 3) / 4.0  # cubic B-spline, 1 in its middle
+        middle = 2 * self.parts - 1
+        moved = control_points.copy()
+        for j, point in zip(self.at.tolist(), self.points, strict=True):
+            a, b, c, d, e = knots[j - 2 : j + 3].tolist()
+            first, last = (d - c) ** 2 / ((d - b) * (d - a)), (c - b) ** 2 / ((d - b) * (e - b))
+            weights = np.array([first, 1.0 - first - last, last])
+            missing = point - weights @ moved[j - 3 : j]
+            moved[j - 2 + offsets] += bump[:, None] * (missing / (weights @ bump[middle - 1 : middle + 2]))
+        return moved
+
+
 def timings(
-    control_points: FloatArray, knots: FloatArray, limits: Limits, duration: float | None = None
+    control_points: FloatArray,
+    knots: FloatArray,
+    limits: Limits,
+    duration: float | None = None,
+    via: FloatArray | None = None,
+    via_knots: IntArray | None = None,
 ) -> Iterator[Motion]:
     """Motions along a shape that keep the limits, fastest first; each is farther from the shape than the next.
 
@@ -61,15 +101,21 @@ def timings(
     knots : (n + 4,)           clamped on [0, 1].
     duration : float           what the first and the last three control points were set out for, so that they have the
                                asked velocity and acceleration [s]; None when they are at rest.
+    via : (m, 3)               points that the curve passes [m], at the knots `via_knots` (m,), in spans from the start.
 
     From rest to rest there is always one; else none when the limits cannot be kept from such a start.
     """
-    finer = finer_knots(control_points, knots, limits, moving=duration is not None)
+    moving = (_moves(control_points[:DEGREE]), _moves(control_points[-DEGREE:]))
+    finer = finer_knots(control_points, knots, limits, duration, moving)
     points = refine(control_points, knots, finer)
-    if duration is None:
-        points[:DEGREE], points[-DEGREE:] = control_points[0], control_points[-1]
+    for end, moves in ((slice(0, DEGREE), moving[0]), (slice(-DEGREE, None), moving[1])):
+        if not moves:
+            points[end] = control_points[end]
+    pins = None
+    if via is not None and via_knots is not None and len(via):
+        pins = Pins(np.searchsorted(finer, knots[DEGREE + via_knots]), via, parts_of(knots))
     for evenness in EVENNESS:
-        found = fastest(points, finer, limits, duration, evenness)
+        found = fastest(points, finer, limits, duration, moving, evenness, pins)
         if found is not None:
             yield found
     if duration is None:
@@ -77,43 +123,87 @@ def timings(
 
 
 def fastest(
-    points: FloatArray, knots: FloatArray, limits: Limits, duration: float | None, evenness: float
+    points: FloatArray,
+    knots: FloatArray,
+    limits: Limits,
+    duration: float | None,
+    moving: tuple[bool, bool],
+    evenness: float,
+    pins: Pins | None = None,
 ) -> Motion | None:
     """The least duration that knot intervals alone can reach, or None when none keeps the limits."""
     intervals = np.zeros(len(points) - DEGREE + 2 * PAD)
     intervals[PAD:-PAD] = np.diff(knots[DEGREE:-DEGREE])
     bounds = np.array([limits.speed, limits.acceleration, limits.jerk])
-    held = (0, 0) if duration is None else (1, 1)
     if duration is None:
         duration = WIDER * stretch_of(points, intervals, bounds)
         if duration <= SHORTEST:
             return None
     intervals *= duration
-    stretch, _ = shorten(points, intervals, bounds, held, evenness, GAP, MOST_STEPS)
-    if not stretch <= 1.0:
-        return None
-    times = np.cumsum(intervals[PAD:-PAD])
-    timed = np.concatenate([np.zeros(DEGREE + 1), times, np.full(DEGREE, times[-1])])
-    return Motion(points, timed) if within(points, timed, limits) else None
+    held = (int(moving[0]), int(moving[1]))
+    for _ in range(1 if pins is None else ROUNDS):
+        asked = bounds if pins is None else bounds * SPARE
+        stretch, _ = shorten(points, intervals, asked, held, evenness, GAP, MOST_STEPS)
+        if not stretch <= 1.0:
+            return None
+        times = np.cumsum(intervals[PAD:-PAD])
+        timed = np.concatenate([np.zeros(DEGREE + 1), times, np.full(DEGREE, times[-1])])
+        if pins is not None:
+            points = pins.onto(points, timed)
+        if within(points, timed, limits):
+            return Motion(points, timed)
+    return None
 
 
-def finer_knots(control_points: FloatArray, knots: FloatArray, limits: Limits, moving: bool) -> FloatArray:
-    """A shape's knots with each span cut into parts, the outermost of them halved until they resolve the ramps."""
-    breaks = knots[DEGREE:-DEGREE]
-    spans = len(breaks) - 1
-    parts = PARTS
+def _moves(end: FloatArray) -> bool:
+    """Whether the three control points at an end differ."""
+    return bool((end != end[0]).any())
+
+
+def parts_of(knots: FloatArray) -> int:
+    """How many parts each span of a shape is cut into."""
+    parts, spans = PARTS, len(knots) - 2 * DEGREE - 1
     while parts > 1 and parts * spans > MOST_INTERVALS:
         parts //= 2
-    steps = np.arange(parts) / parts
-    inner = (breaks[:-1, None] + np.diff(breaks)[:, None] * steps).ravel()
+    return parts
+
+
+def finer_knots(
+    control_points: FloatArray, knots: FloatArray, limits: Limits, duration: float | None, moving: tuple[bool, bool]
+) -> FloatArray:
+    """A shape's knots with each span cut into parts, the outermost of them halved until they resolve the ramps."""
+    breaks = knots[DEGREE:-DEGREE]
+    parts = parts_of(knots)
+    inner = (breaks[:-1, None] + np.diff(breaks)[:, None] * (np.arange(parts) / parts)).ravel()
     first, last = (inner[1] if parts > 1 else breaks[1]) - breaks[0], breaks[-1] - inner[-1]
+    halvings = []
+    for end, from_end, moves in (
+        (control_points[:4], knots[:6], moving[0]),
+        (control_points[:-5:-1], knots[-1] - knots[:-7:-1], moving[1]),
+    ):
+        if moves:
+            assert duration is not None, "moving ends are set out for a duration"
+            halvings.append(_halvings_moving(end, from_end * duration, parts, limits))
+        else:
+            halvings.append(_halvings(end, parts, limits))
     fall = 0.5 ** np.arange(MOST_HALVINGS, 0, -1)
-    ends = [0 if moving else _halvings(end, parts, limits) for end in (control_points[:4], control_points[:-5:-1])]
-    if moving:
-        ends = [2, 2]
-    early = breaks[0] + first * fall[MOST_HALVINGS - ends[0] :]
-    late = breaks[-1] - last * fall[MOST_HALVINGS - ends[1] :][::-1]
+    early = breaks[0] + first * fall[MOST_HALVINGS - halvings[0] :]
+    late = breaks[-1] - last * fall[MOST_HALVINGS - halvings[1] :][::-1]
     return np.concatenate([knots[:DEGREE], inner[:1], early, inner[1:], late, knots[-DEGREE - 1 :]])
+
+
+def _halvings_moving(end: FloatArray, knots: FloatArray, parts: int, limits: Limits) -> int:
+    """The same at an end in motion: twice, or until the second control point of the velocity keeps the limit too.
+
+    That is the velocity plus half the first interval of acceleration.
+    """
+    first, both = knots[4] - knots[3], knots[5] - knots[3]
+    velocity = 3.0 * (end[1] - end[0]) / first
+    change = 3.0 * (end[2] - end[1]) / both - velocity
+    for halvings in range(2, MOST_HALVINGS):
+        if np.linalg.norm(velocity + change / (parts * 2**halvings)) <= limits.speed:
+            return halvings
+    return MOST_HALVINGS
 
 
 def _halvings(end: FloatArray, parts: int, limits: Limits) -> int:
