@@ -94,7 +94,7 @@ def prove(
     on the curve itself. Gives up, with both bounds -inf, at the first point of the curve that is nearer than `need`.
     """
     solids, edges, voxels = scene.solids, scene.edges, scene.field.distances.size > 0
-    exact = max(2.0 * need, NEAR * scene.field.resolution)  # beyond, the field's own bound is as good
+    exact = max(2.0 * need, NEAR * scene.field.resolution)  # beyond, a field's own bound has to do
     stack = np.empty((DEEPEST + 1, 4, 3))
     depth = np.empty(DEEPEST + 1, dtype=np.int64)
     seen, wall_seen = np.inf, np.inf

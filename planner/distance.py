@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.field import NO_FIELD, Field, field_bound, field_distance, interpolate
+from planner.field import CLOSE, NO_FIELD, Field, field_distance, interpolate
 from planner.jit import kernel
 from planner.prism import EDGE, polygon_distance
 
@@ -119,13 +119,14 @@ def _nearest_row(solids: FloatArray, edges: FloatArray, x: float, y: float, z: f
 
 @kernel
 def nearest_solid(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
-    """(d, index) of what is nearest: exact for solids, a proved lower bound of the distance for a field's voxels.
+    """(d, index) of what is nearest: exact for solids and within CLOSE voxels of a field's, else a proved lower bound.
 
-    The index is the row of the solid, or the number of solids when it is the field; (inf, -1) when there is nothing.
+    Inside a voxel it is at most 0, and no better than that. The index is the row of the solid, or the number of solids
+    when it is the field; (inf, -1) when there is nothing.
     """
     least, index = _nearest_row(scene.solids, scene.edges, x, y, z)
     if scene.field.distances.size > 0:
-        d = field_bound(scene.field, x, y, z)
+        d = field_distance(scene.field, x, y, z, min(least, CLOSE * scene.field.resolution))
         if d < least:
             least, index = d, scene.solids.shape[0]
     return least, index
@@ -133,7 +134,7 @@ def nearest_solid(scene: Scene, x: float, y: float, z: float) -> tuple[float, in
 
 @kernel
 def nearest_exact(scene: Scene, x: float, y: float, z: float, most: float) -> tuple[float, int]:
-    """`nearest_solid`, with the field's distance exact as well, where it is below `most` and outside its voxels."""
+    """`nearest_solid`, with the field's distance exact wherever it is below `most` and outside its voxels."""
     least, index = _nearest_row(scene.solids, scene.edges, x, y, z)
     if scene.field.distances.size > 0:
         d = field_distance(scene.field, x, y, z, min(most, least))

@@ -12,13 +12,15 @@ minimum of affine functions, so concave, hence (Jensen)
     d(p)^2 - |p|^2 >= sum w_i (d_i^2 - |n_i|^2)
     d(p)^2         >= T[d^2](p) - sum w_i |n_i - p|^2 = T[d^2](p) - h^2 sum_a f_a (1 - f_a)
 
-for any set S, convex or not. It is about 3 h^2 / (8 d) below the truth at most, a few per cent of h beyond a few voxels
-where the 1-Lipschitz property alone would cost 0.87 h. Corners are kept in float32, to 6e-8 of themselves; SHRINK takes
-more than that off. Within solids the depth is 1-Lipschitz too, so
+for any set S, convex or not. Where one cube is the nearest to all of the cell, this is about 3 h^2 / (8 d) below the
+truth at most, a few per cent of h beyond a few voxels. Where the nearest one changes within the cell it can be 0.9 h,
+no better than the 1-Lipschitz property: midway in a gap the exact distance has to be looked up. Corners are kept in
+float32, to 6e-8 of themselves; SHRINK takes more than that off. Within solids the depth is 1-Lipschitz too, so
 T[depth](p) >= depth(p) - h sqrt(sum_a f_a (1 - f_a)).
 
 Outside the lattice let q be the lattice's nearest point to p. All that is solid lies in the lattice, which is convex,
-so the angle at q is obtuse and d(p)^2 >= d(q)^2 + |p - q|^2.
+so the angle at q is obtuse and d(p)^2 >= d(q)^2 + |p - q|^2: a proof too, but a loose one where what is nearest lies
+deep within.
 
 Exact. The lower bound L and the corners' upper bound U = min d_i + |p - n_i| leave a shell of voxels to look at.
 """
@@ -36,8 +38,8 @@ FloatArray = NDArray[np.float64]
 
 SHRINK = 1.0 - 5e-7
 """Takes the rounding of float32 corners off a squared distance."""
-NEAR = 8.0
-"""Voxels within which `field_distance` looks at single voxels; beyond, the bound is within 0.05 voxels of the truth."""
+CLOSE, NEAR = 4.0, 8.0
+"""Voxels within which distances are looked up exactly by a search, which asks often, and by a proof."""
 
 
 class Field(NamedTuple):
@@ -108,7 +110,8 @@ def field_bound(field: Field, x: float, y: float, z: float) -> float:
     i, fx, ex = _along(x, origin[0], h, distances.shape[0] - 1)
     j, fy, ey = _along(y, origin[1], h, distances.shape[1] - 1)
     k, fz, ez = _along(z, origin[2], h, distances.shape[2] - 1)
-    square, solid = 0.0, field.occupied[i, j, k]
+    beyond = ex * ex + ey * ey + ez * ez
+    square, solid = 0.0, field.occupied[i, j, k] and beyond == 0.0
     for a in range(2):
         wx = fx if a == 1 else 1.0 - fx
         for b in range(2):
@@ -119,7 +122,7 @@ def field_bound(field: Field, x: float, y: float, z: float) -> float:
     if solid:
         # All corners are at most 0; the mean depth is at most the root of the mean square.
         return -(math.sqrt(square) + math.sqrt(spread)) * (2.0 - SHRINK)
-    return math.sqrt(max(square * SHRINK - spread, 0.0) + ex * ex + ey * ey + ez * ez)
+    return math.sqrt(max(square * SHRINK - spread, 0.0) + beyond)
 
 
 @kernel

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from planner.checks import Point, as_point, as_positive
 from planner.esdf import BoolArray, signed_distances
-from planner.field import NO_FIELD, Field
+from planner.field import NEAR, NO_FIELD, Field
 
 FloatArray = NDArray[np.float64]
 AnyArray = TypeVar("AnyArray", BoolArray, FloatArray)
@@ -22,6 +22,8 @@ AnyArray = TypeVar("AnyArray", BoolArray, FloatArray)
 MOST_VOXELS = 40_000_000
 """In one field; its distances then take 160 MB."""
 MOST_POINTS = 20_000_000
+MARGIN = NEAR
+"""Free voxels kept around a cloud: outside its lattice a field's bound is good only for what is well within."""
 ALIGNED = 1e-6
 """Share of a voxel by which lattices that are merged may seem apart; rounding of the corners' coordinates, no more."""
 
@@ -177,8 +179,8 @@ def _field_of_points(points: FloatArray, origin: FloatArray, resolution: float) 
     if not len(points):
         return NO_FIELD
     places = np.floor((points - origin) / resolution)
-    low = places.min(axis=0)
-    shape = _shape(places.max(axis=0) - low + 1.0, "cloud", resolution)
+    low = places.min(axis=0) - MARGIN
+    shape = _shape(places.max(axis=0) - low + 1.0 + MARGIN, "cloud", resolution)
     i, j, k = (places - low).astype(np.int64).T
     occupied = np.zeros(shape, dtype=np.bool_)
     occupied[i, j, k] = True

@@ -159,8 +159,9 @@ class World:
     def distance(self, points: FloatArray) -> FloatArray:
         """Signed distance (m,) [m] of points (m, 3) to the nearest obstacle, negative inside; inf without any.
 
-        Exact for solids. For voxels exact from their surface to eight voxels away; farther off a lower bound, at most
-        0.05 voxels too low; inside them at most 0, by the field's interpolation.
+        Exact for solids. For voxels exact from their surface to eight voxels away; farther off a lower bound, at most a
+        voxel too low in the grid and less good outside it; inside voxels some number of at most 0, no less deep than
+        the truth.
         """
         return self.distance_gradient(points)[0]
 
