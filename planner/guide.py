@@ -1,10 +1,11 @@
 """The ways round, when bows do not find one: A* on a lattice of the free space, pulled taut, one for each side.
 
 The lightest way comes first; each further one is searched with the ways already found made BURDEN times as long, and
-counts only when it passes some obstacle on another side than all of them. Two ways are taken to pass alike when points
-equally far along them see each other: the one can then be drawn across to the other through free space (uniform
-visibility deformation: Zhou, Gao, Pan & Shen, ICRA 2020, sec. IV; after Jaillet & Simeon, IJRR 2008). What they lead to
-is a guess for the spline: it is proved or refused like any other curve.
+counts only when it passes some obstacle on another side than all of them. Two ways are taken to pass alike when two can
+go along them and never lose sight of each other: the one can then be drawn across to the other through free space. (The
+visibility deformation of Jaillet & Simeon, IJRR 2008. Zhou, Gao, Pan & Shen, ICRA 2020, let both go evenly; on long
+ways round corners they would lose each other.) What a way leads to is a guess for the spline: it is proved or refused
+like any other curve.
 """
 
 import math
@@ -15,7 +16,7 @@ import numpy as np
 from planner.bspline import FloatArray
 from planner.distance import Scene
 from planner.jit import kernel
-from planner.lattice import BUFFER, SLACK, Lattice, astar, build_lattice, burden_along, free
+from planner.lattice import BUFFER, DEEPEST, SLACK, Lattice, astar, build_lattice, burden_along, free
 from planner.worlds import World
 
 WIDTHS = (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
@@ -25,8 +26,8 @@ FEWEST_POINTS, MOST_POINTS = 5_000, 2_000_000
 STOREYS = 4.0
 """Up and down the points of all but the finest lattice are this many times as far apart: most obstacles stand."""
 BURDEN = 9.0
-RAYS = 40
-"""Pairs of points that have to see each other for two ways to pass alike."""
+PLACES = 60
+"""Along a way, at which two that pass alike see each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,12 +48,12 @@ class Guide:
 @kernel
 def pull_taut(scene: Scene, radius: float, path: FloatArray) -> FloatArray:
     """The corners (m, 3) left when every point that the one after next can be seen past is dropped."""
-    kept = np.empty_like(path)
+    kept, gaps = np.empty_like(path), np.empty((2, DEEPEST))
     kept[0] = path[0]
     count, i, last = 1, 0, path.shape[0] - 1
     while i < last:
         j = i + 1
-        while j < last and free(scene, radius, path[i], path[j + 1], 0.0, 0.0):
+        while j < last and free(scene, radius, path[i], path[j + 1], 0.0, 0.0, gaps):
             j += 1
         kept[count] = path[j]
         count += 1
@@ -62,11 +63,27 @@ def pull_taut(scene: Scene, radius: float, path: FloatArray) -> FloatArray:
 
 @kernel
 def alike(scene: Scene, radius: float, a: FloatArray, b: FloatArray) -> bool:
-    """Whether points equally far along a (k, 3) and b (k, 3) see each other."""
-    for i in range(a.shape[0]):  # noqa: SIM110 compiled
-        if not free(scene, radius, a[i], b[i], 0.0, 0.0):
-            return False
-    return True
+    """Whether two can go along a (k, 3) and b (k, 3), from the first to the last point, and never lose sight of each
+    other. A search in depth over the pairs of places, both going on at once if they can."""
+    k = a.shape[0]
+    gaps, seen = np.empty((2, DEEPEST)), np.zeros((k, k), dtype=np.uint8)
+    stack, top = np.empty((3 * k * k, 2), dtype=np.int64), 0
+    stack[0, 0], stack[0, 1] = 0, 0
+    while top >= 0:
+        i, j = stack[top, 0], stack[top, 1]
+        top -= 1
+        if i >= k or j >= k or seen[i, j]:
+            continue
+        seen[i, j] = 1
+        if not free(scene, radius, a[i], b[j], 0.0, 0.0, gaps):
+            continue
+        if i == k - 1 and j == k - 1:
+            return True
+        stack[top + 1, 0], stack[top + 1, 1] = i + 1, j
+        stack[top + 2, 0], stack[top + 2, 1] = i, j + 1
+        stack[top + 3, 0], stack[top + 3, 1] = i + 1, j + 1
+        top += 3
+    return False
 
 
 def spread(path: FloatArray, count: int) -> FloatArray:
@@ -108,7 +125,7 @@ class Guides:
         self.widths = widths(self.high - self.low)
         self.level = -1
         self.lattice: Lattice | None = None
-        self.found: list[FloatArray] = []  # (RAYS, 3) along each way so far
+        self.found: list[FloatArray] = []  # (PLACES, 3) along each way so far
 
     @property
     def width(self) -> float:
@@ -140,7 +157,7 @@ class Guides:
         points = lattice.origin + np.stack(np.unravel_index(nodes[1:-1], tuple(lattice.shape)), axis=1) * lattice.step
         whole = np.concatenate([self.ends[:1], points, self.ends[1:]])
         way = Guide(np.asarray(pull_taut(self.scene, self.radius + BUFFER / 2.0, whole)), self.width)
-        along = spread(way.path, RAYS)
+        along = spread(way.path, PLACES)
         if any(alike(self.scene, self.radius, along, other) for other in self.found):
             return None
         self.found.append(along)

@@ -19,6 +19,8 @@ from planner.jit import kernel
 SLACK = 0.01
 """Beyond the radius, what a guide keeps [m]: one that just touches leaves the spline no room."""
 BUFFER, CAUTION = 0.3, 3.0
+DEEPEST = 64
+"""Halvings of a segment: each leaves less than half, and 64 leave nothing of any."""
 
 
 class Lattice(NamedTuple):
@@ -41,21 +43,30 @@ def build_lattice(low: FloatArray, high: FloatArray, ends: FloatArray, width: Fl
 
 
 @kernel
-def free(scene: Scene, radius: float, a: FloatArray, b: FloatArray, spare_a: float, spare_b: float) -> bool:
+def free(
+    scene: Scene, radius: float, a: FloatArray, b: FloatArray, spare_a: float, spare_b: float, gaps: FloatArray
+) -> bool:
     """Whether the segment from a to b keeps the radius less SLACK / 2.
 
-    Sphere marching: the distance is 1-Lipschitz, so from a point that keeps the radius a step of d - radius + SLACK / 2
-    meets nothing nearer than that. True is a proof, False means that a point nearer than the radius was met.
-    `spare_a` and `spare_b` are d - radius at the ends, where they are known; they spare two steps.
+    The distance is 1-Lipschitz: a point that keeps the radius vouches for d - radius + SLACK / 2 on both sides of it.
+    What the ends, by their `spare` d - radius, leave is asked for in its middle, and so on. True is a proof, False
+    means that a point nearer than the radius was met. `gaps` (2, DEEPEST) is scratch.
     """
     length = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
-    t, end = spare_a + 0.5 * SLACK, length - spare_b - 0.5 * SLACK
-    while t < end:
+    gaps[0, 0], gaps[1, 0], top = spare_a + 0.5 * SLACK, length - spare_b - 0.5 * SLACK, 0
+    while top >= 0:
+        first, last = gaps[0, top], gaps[1, top]
+        if first >= last:
+            top -= 1
+            continue
+        t = 0.5 * (first + last)
         f = t / length
         d, _ = nearest_solid(scene, a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2]))
-        if d < radius:
+        if d < radius or top == DEEPEST - 1:
             return False
-        t += d - radius + 0.5 * SLACK
+        gaps[1, top] = t - (d - radius + 0.5 * SLACK)
+        top += 1
+        gaps[0, top], gaps[1, top] = t + (d - radius + 0.5 * SLACK), last
     return True
 
 
@@ -70,7 +81,7 @@ def astar(scene: Scene, lattice: Lattice, radius: float, longest: float) -> NDAr
     origin, step, ends, distance, burden = lattice.origin, lattice.step, lattice.ends, lattice.distance, lattice.burden
     nx, ny, nz = lattice.shape[0], lattice.shape[1], lattice.shape[2]
     ox, oy, oz, sx, sy, sz = origin[0], origin[1], origin[2], step[0], step[1], step[2]
-    here, there = np.empty(3), np.empty(3)
+    here, there, gaps = np.empty(3), np.empty(3), np.empty((2, DEEPEST))
     cost, run = np.full(nx * ny * nz, np.inf), np.empty(nx * ny * nz)  # burdened, and as the crow flies [m]
     parent = np.full(nx * ny * nz, -1, dtype=np.int64)
     at = np.empty((2, 3), dtype=np.int64)
@@ -138,11 +149,11 @@ def astar(scene: Scene, lattice: Lattice, radius: float, longest: float) -> NDAr
                         else:
                             there[0], there[1], there[2] = px, py, pz
                         keep = radius + min(0.0, near - 1e-9)
-                        if not free(scene, keep, here, there, 0.0, 0.0):
+                        if not free(scene, keep, here, there, 0.0, 0.0, gaps):
                             continue
                     elif spare + distance[other] - radius < way:
                         there[0], there[1], there[2] = px, py, pz
-                        if not free(scene, radius, here, there, spare, distance[other] - radius):
+                        if not free(scene, radius, here, there, spare, distance[other] - radius, gaps):
                             continue
                     cost[other], run[other], parent[other] = spent + dear, ran + way, node
                     key = spent + dear + left

@@ -15,7 +15,8 @@ from planner import errors
 from planner.bspline import FloatArray
 from planner.certificate import Certificate, certify, end_needed
 from planner.distance import nearest_exact
-from planner.guide import guide
+from planner.enclosure import PITCHES, apart
+from planner.guide import Guides
 from planner.limits import Limits
 from planner.query import Query
 from planner.shape import Effort, Shape, haoaroa
@@ -177,7 +178,11 @@ def warm_up() -> None:
     """Compile every kernel, so that the next plan is fast: about ten seconds after a fresh installation, else none."""
     world = World(bounds=((0.0, 0.0, 0.0), (6.0, 6.0, 1.0)), obstacles=[Box((2.0, 1.0, 0.0), (3.0, 4.0, 1.0))])
     ends = np.array([[0.5, 3.0, 0.5], [5.5, 3.0, 0.5]])
-    guide(world, ends[0], ends[1], 0.1)
+    guides = Guides(world, ends[0], ends[1], 0.1)
+    guides.refine()
+    for _ in range(2):
+        guides.another()
+    apart(world, ends[0], ends[1], 0.1, PITCHES[:1])
     world.distance(ends)
     plan(world, ends[0], ends[1], Limits(1.0, 1.0, 10.0), 0.1)
 

@@ -46,6 +46,8 @@ STEP = 0.5
 """Along a guide a step of the polish is at most this much of the reach, lest the curve jump to a sheet's other side."""
 STIFFER = (1.0, 4.0, 32.0)
 """Factors on the obstacle weight, tried in turn until a curve is proved."""
+HOPELESS = 2
+"""When so many of the fan's best lead right through a solid, the search graph is asked."""
 SIDES = 3
 """Ways past the obstacles that are followed on one lattice when the first cannot be proved."""
 WORTH = 1.1
@@ -130,13 +132,13 @@ class _Search:
         query, effort = self.query, self.effort
         cost = self.spline_cost(query.legs, Try(SPACING, np.inf, np.inf), MOST)
         candidates = self.search(cost)
-        yield from self.prove_all(itertools.islice(candidates, ELITES), cost)
+        yield from self.prove_all(itertools.islice(candidates, ELITES), cost, HOPELESS)
         effort.guided = True
         if len(query.via):
             yield from self.leg_by_leg()
         guides = Guides(self.world, query.start, query.goal, self.radius)
         yield from self.along_guides(guides)
-        yield from self.prove_all(candidates, cost)
+        yield from self.prove_all(candidates, cost, POPULATION)
         raise self.no_path(guides, proved=False)
 
     def leg_by_leg(self) -> Iterator[Shape]:
@@ -247,14 +249,16 @@ class _Search:
             if i == 0 or (np.abs(ranked[:i] - ranked[i]).max(axis=1) > cost.reach).all():
                 yield ranked[i].copy()
 
-    def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost) -> list[Shape]:
+    def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost, hopeless: int) -> list[Shape]:
         """Polish seeds, most promising first; what can be proved, best first. Stop after ELITES once something is.
 
-        A curve that leads right through a solid is given up: weighing obstacles more pushes it from both sides.
+        A curve that leads right through a solid is given up: weighing obstacles more pushes it from both sides. When
+        the first `hopeless` are such, so are the rest.
         """
         found: list[Shape] = []
+        through = 0
         for k, seed in enumerate(seeds):
-            if k >= ELITES and found:
+            if (k >= ELITES and found) or (k == through == hopeless):
                 break
             self.effort.tried += 1
             x = seed
@@ -266,8 +270,10 @@ class _Search:
                     self.effort.certified += 1
                     found.append(self.shape_of(cost, x))
                     break
-                if factor == STIFFER[-1] or self.least_distance(cost.control_points(x), 4 * cost.n) < 0.0:
+                inside = self.least_distance(cost.control_points(x), 4 * cost.n) < 0.0
+                if inside or factor == STIFFER[-1]:
                     self.refused.append(cost.control_points(x))
+                    through += inside
                     break
         return sorted(found, key=lambda shape: shape.value)
 
