@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from planner import Box, Cylinder, World
-from planner.guide import MOST_POINTS, guide, widths
+from planner.families import maze
+from planner.guide import MOST_POINTS, Guides, guide, widths
 
 BOUNDS = ((0, 0, 0), (12, 8, 3))
 
@@ -17,8 +18,8 @@ def sheet(x: float, low: float, high: float, thickness: float) -> Box:
     return Box((x, low, -1), (x + thickness, high, 4))
 
 
-def samples(path: np.ndarray) -> np.ndarray:
-    return np.concatenate([np.linspace(a, b, 5000) for a, b in itertools.pairwise(path)])
+def samples(path: np.ndarray, each: int = 5000) -> np.ndarray:
+    return np.concatenate([np.linspace(a, b, each) for a, b in itertools.pairwise(path)])
 
 
 def outside(p: np.ndarray, box: Box) -> np.ndarray:
@@ -82,3 +83,66 @@ def test_a_map_of_a_kilometre_has_a_guide_too() -> None:
     way = guide(world, np.array([0.0, 0, 5]), np.array([1000.0, 0, 5]), 0.3)
     assert 1000.0 < way.length < 1100.0
     assert min(outside(samples(way.path), box).min() for box in high) >= 0.3
+
+
+def turns_about(path: np.ndarray, x: float, y: float) -> float:
+    """How far a path winds about an upright axis [rad]: ways past it on either side differ by a full turn."""
+    angles = np.unwrap(np.arctan2(path[:, 1] - y, path[:, 0] - x))
+    return float(angles[-1] - angles[0])
+
+
+def ways(world: World, start: np.ndarray, goal: np.ndarray, count: int) -> list[np.ndarray]:
+    guides = Guides(world, start, goal, 0.3)
+    guides.refine()
+    return [way.path for way in (guides.another() for _ in range(count)) if way is not None]
+
+
+def test_ways_pass_a_pillar_on_both_sides_and_no_third() -> None:
+    world = World(BOUNDS, [Box((5, 3, -1), (7, 5, 4))])
+    found = ways(world, np.array([1.0, 4, 1.5]), np.array([11.0, 4, 1.5]), 5)
+    assert len(found) == 2
+    a, b = (turns_about(samples(path), 6.0, 4.0) for path in found)
+    assert abs(a - b) == pytest.approx(2 * math.pi, abs=1e-6)
+
+
+@pytest.mark.parametrize("pillars", [2, 3])
+def test_no_two_ways_wind_about_all_pillars_alike(pillars: int) -> None:
+    posts = [Cylinder((3.0 * (k + 1), 4.0), 0.9, (-1, 4)) for k in range(pillars)]
+    found = ways(World(BOUNDS, posts), np.array([0.7, 4, 1.5]), np.array([11.3, 4, 1.5]), 12)
+    windings = [tuple(round(turns_about(samples(path), *post.centre), 6) for post in posts) for path in found]
+    assert len(found) >= 2
+    assert len(set(windings)) == len(found)
+
+
+def test_over_and_round_a_wall_are_two_ways() -> None:
+    world = World(BOUNDS, [Box((5, -1, -1), (6, 6, 1.5))])
+    found = ways(world, np.array([1.0, 3, 0.7]), np.array([11.0, 3, 0.7]), 4)
+    highest = [samples(path)[:, 2].max() for path in found]
+    assert len(found) >= 2
+    assert min(highest) < 1.5 < 1.8 < max(highest)
+
+
+def test_a_bound_on_the_length_leaves_out_longer_ways() -> None:
+    guides = Guides(
+        World(BOUNDS, [Box((5, -1, -1), (6, 7, 4))]), np.array([1.0, 6, 1.5]), np.array([11.0, 6, 1.5]), 0.3
+    )
+    guides.refine()
+    assert guides.another(10.0) is None
+    way = guides.another(14.0)
+    assert way is not None
+    assert 10.0 < way.length < 14.0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_ways_through_a_maze_with_loops_keep_the_radius_and_wind_differently_about_its_walls(seed: int) -> None:
+    scenario = maze(np.random.default_rng(seed), "loops")
+    found = ways(scenario.world, np.array(scenario.start), np.array(scenario.goal), 5)
+    walls = [wall for wall in scenario.world.obstacles if isinstance(wall, Box)]
+    assert len(found) >= 2
+    windings = set()
+    for path in found:
+        p = samples(path, 300)
+        assert min(outside(p, wall).min() for wall in walls) >= 0.3 + 0.004
+        middles = [(np.array(wall.lower) + wall.upper) / 2 for wall in walls]
+        windings.add(tuple(round(turns_about(p, x, y), 6) for x, y, _ in middles))
+    assert len(windings) == len(found)
