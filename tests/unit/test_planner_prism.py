@@ -122,7 +122,7 @@ def test_no_curve_is_proved_for_more_than_its_samples_keep(name: str, seed: int)
         points, knots = middle + rng.uniform(-1.5, 1.5, (9, 3)), clamped_knots(9)
         samples = evaluate(points, knots, np.linspace(0, 1, 8000))
         truth = prism_distance(SHAPES[name], prism.z, samples).min()
-        proof = certify(points, knots, world, max(0.9 * truth, 0.0))
+        proof = certify(points, knots, world, min(max(0.9 * truth, 0.0), 1.0))
         assert proof.obstacle_distance <= truth + 1e-9
         assert truth < 0.02 or (proof.certified and proof.obstacle_distance >= truth - 5e-3)
         clear += truth > 0.1
