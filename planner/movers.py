@@ -195,8 +195,8 @@ def nearest_mover(pieces: FloatArray, times: FloatArray, m: FloatArray) -> tuple
 @kernel
 def prove_movers(
     pieces: FloatArray, times: FloatArray, m: FloatArray, need: float, tolerance: float
-) -> tuple[float, int, float, int]:
-    """(bound on the distance to every mover, nearest mover seen, when, pieces looked at).
+) -> tuple[float, float, int, float]:
+    """(bound on the distance to every mover, least distance seen, which mover's, when).
 
     pieces (p, 4, 3) [m] are flown between times (p + 1,) [s]. The bound is -inf when `need` is not proved; it comes
     within `tolerance` of the least distance seen.
@@ -208,7 +208,7 @@ def prove_movers(
     seen, index, when = nearest_mover(pieces, times, m)
     bound, looked = np.inf, 0
     if seen < need:
-        return -np.inf, index, when, looked
+        return -np.inf, seen, index, when
     for k in range(m.shape[0]):
         wx, wy, wz, stamp, until = m[k, 7], m[k, 8], m[k, 9], m[k, 11], m[k, 12]
         for first in range(pieces.shape[0]):
@@ -245,12 +245,12 @@ def prove_movers(
                     if d < seen:
                         seen, index, when = d, k, middle
                     if d < need:
-                        return -np.inf, index, when, looked
+                        return -np.inf, seen, index, when
                 if low >= max(need, seen - tolerance):
                     bound = min(bound, low)
                     continue
                 if depth[top] >= DEEPEST - 1 or looked >= MOST_PIECES:
-                    return -np.inf, index, when, looked
+                    return -np.inf, seen, index, when
                 right = stack[top + 1]
                 for i in range(3):  # de Casteljau at one half; the left half replaces q on the stack
                     b0, b1, b2, b3 = q[0, i], q[1, i], q[2, i], q[3, i]
@@ -263,7 +263,7 @@ def prove_movers(
                 depth[top] += 1
                 depth[top + 1] = depth[top]
                 top += 2
-    return bound, index, when, looked
+    return bound, seen, index, when
 
 
 @dataclass(frozen=True, slots=True)
@@ -310,5 +310,5 @@ def certify_movers(
         pieces = np.concatenate([pieces, np.tile(control_points[-1], (1, 4, 1))])
         times = np.append(times, times[-1] + hold)
     margin = rounding(control_points, movers, float(times[-1]))
-    low, mover, when, _ = prove_movers(pieces, times, movers, radius + 2.0 * margin, tolerance)
+    low, _, mover, when = prove_movers(pieces, times, movers, radius + 2.0 * margin, tolerance)
     return MoverProof(bool(low - margin >= radius), low - margin, int(mover), float(when))

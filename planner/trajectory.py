@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from planner.bspline import DEGREE, FloatArray, check_knots
+from planner.bspline import DEGREE, FloatArray, check_knots, refine
 from planner.errors import KnotError
 from planner.jit import kernel
 
@@ -127,6 +127,32 @@ class Trajectory:
     def jerk(self, t: ArrayLike) -> FloatArray:
         """[m/s^3]."""
         return self._evaluate(t, 3)
+
+    def after(self, t: float) -> "Trajectory":
+        """The remainder from t [s] on, as a trajectory whose own time starts there: the same curve on the same knots.
+
+        Raises
+        ------
+        ValueError : t is not a number from 0 up to, but not including, the duration.
+        """
+        if not 0.0 <= t < self.duration:
+            raise ValueError(f"t: expected from 0 s to less than {self.duration} s, found {t}")
+        inside = self.knots[self.knots > t]
+        knots = np.concatenate([np.full(DEGREE + 1, t), inside])
+        return Trajectory(refine(self.control_points, self.knots, knots), knots - t)
+
+    def then(self, other: "Trajectory") -> "Trajectory":
+        """This one, then another that begins with the position, velocity and acceleration that this one ends with.
+
+        The knot between them is simple, so only one control point is new. It is the blossom f(a, T, T + b) of the
+        other's first piece, with a and T + b the knots beside it; in the first argument that is affine, f(T, ..) = P_1
+        and f(T + c, ..) = P_2 with T + c the knot after T + b.
+        """
+        p, q, u, w = self.control_points, other.control_points, self.knots, other.knots
+        n, end = len(p), self.duration
+        new = q[1] + (u[n - 1] - end) / w[DEGREE + 2] * (q[2] - q[1])
+        points = np.concatenate([p[: n - 2], new[None], q[2:]])
+        return Trajectory(points, np.concatenate([u[: n + 1], w[DEGREE + 1 :] + end]))
 
     def _last(self) -> float:
         return float(self.knots[-1])
