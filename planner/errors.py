@@ -3,6 +3,7 @@
     PlannerError
       KnotError             a knot vector is not one
       InfeasibleLimits      a limit that no vehicle has (also a ValueError)
+      WorldFileError        a world, grid or cloud in a file that is none
       StateBeyondLimits     a velocity or acceleration at an end beyond the limit on it (also a ValueError)
       EndpointError
         StartInCollision    GoalInCollision       closer to an obstacle than the radius
@@ -38,6 +39,17 @@ class PlannerError(Exception):
 
 class KnotError(PlannerError):
     """A knot vector has the wrong length, decreases, is not clamped, or repeats a knot too often."""
+
+
+class WorldFileError(PlannerError):
+    """A file of a world, of voxels or of a cloud cannot be read or does not say what it must."""
+
+    def __init__(self, file: str, where: str, found: str, expected: str) -> None:
+        super().__init__(file, where, found, expected)
+        self.file, self.where, self.found, self.expected = file, where, found, expected
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.where}: found {self.found}, expected {self.expected}"
 
 
 class InfeasibleLimits(PlannerError, ValueError):
