@@ -2,12 +2,13 @@
 
 import sys
 
-from benchmarks import bench_mazes, bench_planner, bench_search, bench_simulate
+from benchmarks import bench_mazes, bench_planner, bench_search, bench_simulate, bench_timing
 
 
 def main() -> None:
     sys.argv = sys.argv[:1]
     bench_planner.main()
+    bench_timing.main()
     bench_mazes.main()
     bench_search.main()
     bench_simulate.main()

@@ -1,15 +1,23 @@
 """The planner's refusals in the words of the mission file: north, east, altitude, and by how much."""
 
-from planner import GoalInCollision, GoalOutOfBounds, PlannerError, StartInCollision, StartOutOfBounds
+from planner import (
+    GoalInCollision,
+    GoalOutOfBounds,
+    PlannerError,
+    StartInCollision,
+    StartOutOfBounds,
+    ViaInCollision,
+    ViaOutOfBounds,
+)
 
 
 def in_mission_words(error: PlannerError) -> str:
     """One clause for a person; the planner speaks of x, y and z, which are north, east and down here."""
     match error:
-        case StartInCollision() | GoalInCollision():
+        case StartInCollision() | GoalInCollision() | ViaInCollision():
             thing = f"obstacle {error.obstacle} ({error.kind})"
             where = f"{error.distance:.2f} m from" if error.distance >= 0 else f"{-error.distance:.2f} m inside"
-        case StartOutOfBounds() | GoalOutOfBounds():
+        case StartOutOfBounds() | GoalOutOfBounds() | ViaOutOfBounds():
             down = error.axis == 2
             side = {"lower": "upper", "upper": "lower"}[error.side] if down else error.side
             bound = -error.bound + 0.0 if down else error.bound  # + 0.0: no minus sign before a zero

@@ -18,7 +18,6 @@ the constructor's arguments are exactly `Exception.args`, and the sentence is bu
 """
 
 import math
-from typing import ClassVar
 
 Point = tuple[float, float, float]
 AXES = "xyz"
@@ -89,7 +88,7 @@ class EndpointError(PlannerError):
     `shortfall` [m] is what `distance` lacks of `radius + margin`; the margin is what the proof takes for rounding.
     """
 
-    which: ClassVar[str]
+    which: str
     distance: float
     radius: float
     margin: float
@@ -158,8 +157,6 @@ class GoalOutOfBounds(_OutOfBounds):
 class ViaInCollision(_InCollision):
     """Via point number `index` is closer than `radius` to obstacle number `obstacle` [m]."""
 
-    which = "via point"
-
     def __init__(
         self,
         point: Point,
@@ -172,16 +169,11 @@ class ViaInCollision(_InCollision):
     ) -> None:
         super().__init__(point, obstacle, kind, distance, radius, margin)
         self.args = (point, obstacle, kind, distance, radius, margin, index)
-        self.index = index
-
-    def __str__(self) -> str:
-        return super().__str__().replace(self.which, f"{self.which} {self.index}", 1)
+        self.index, self.which = index, f"via point {index}"
 
 
 class ViaOutOfBounds(_OutOfBounds):
     """Via point number `index` is beyond a wall of the map, or nearer to it than `radius` [m]."""
-
-    which = "via point"
 
     def __init__(
         self,
@@ -196,10 +188,7 @@ class ViaOutOfBounds(_OutOfBounds):
     ) -> None:
         super().__init__(point, axis, side, bound, distance, radius, margin)
         self.args = (point, axis, side, bound, distance, radius, margin, index)
-        self.index = index
-
-    def __str__(self) -> str:
-        return super().__str__().replace(self.which, f"{self.which} {self.index}", 1)
+        self.index, self.which = index, f"via point {index}"
 
 
 class NoPathFound(PlannerError):

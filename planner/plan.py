@@ -31,8 +31,10 @@ becomes the plan, else the last; a method that wants no unproved plan raises NoP
 FINDERS: dict[str, Finder] = {"haoaroa": haoaroa}
 METHODS = tuple(FINDERS)
 MOST_VIA = 25
-PACES = (1.0, 1.6, 2.5, 4.0)
-"""Of curves with moving ends, tried in turn until one can be flown: with more time their ends are longer."""
+PACES = ((1.0, False), (1.6, False), (2.5, False), (4.0, False), (1.0, True), (2.5, True))
+"""With moving ends: what the guessed duration is multiplied by, and whether the search graph may help, in turn until a
+curve can be flown. With more time the ends are longer.
+"""
 CURVES = 4
 """Looked at for each pace."""
 HAIR = 1e-11
@@ -143,9 +145,9 @@ def plan(
     effort, curves = Effort(), 0
     refusal: errors.NoPathFound | None = None
     made: Plan | None = None
-    for pace in PACES if query.moving else PACES[:1]:
+    for pace, guides in PACES if query.moving else ((1.0, True),):
         try:
-            for k, shape in enumerate(FINDERS[method](replace(query, pace=pace), effort)):
+            for k, shape in enumerate(FINDERS[method](replace(query, pace=pace, guides=guides), effort)):
                 curves += 1
                 made = finish(query, shape, effort, method, watch) or made
                 if made is not None and made.certified:

@@ -29,6 +29,7 @@ class Query:
     via: FloatArray = field(default_factory=lambda: np.empty((0, 3)))  # (m, 3) points passed in this order [m]
 
     pace: float = 1.0  # a moving end's curve is set out for this many times the duration guessed at first
+    guides: bool = True  # whether a method may ask the search graph, when it has a quicker way to begin with
 
     @property
     def moving(self) -> bool:

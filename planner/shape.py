@@ -133,6 +133,8 @@ class _Search:
         cost = self.spline_cost(query.legs, Try(SPACING, np.inf, np.inf), MOST)
         candidates = self.search(cost)
         yield from self.prove_all(itertools.islice(candidates, ELITES), cost, HOPELESS)
+        if not query.guides:
+            return
         effort.guided = True
         if len(query.via):
             yield from self.leg_by_leg()

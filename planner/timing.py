@@ -7,8 +7,8 @@ T^k; with the hull bounds of `limits` on C' C'' C''',
 
 is the shortest duration for which those bounds meet the limits. The fast way writes the same curve on finer knots and
 then shortens every knot interval for itself (`intervals`). The control polygon stays, so the curve moves: by less than
-a millimetre, since its points are close and neighbouring intervals change alike. What is proved is the result: bounds
-and clearance are computed again on the knots that were found, so neither rounding nor that millimetre slips through.
+a millimetre as a rule, since its points are close and neighbouring intervals change alike. What is proved is the
+result: bounds and clearance are computed again on the knots found, so neither rounding nor that millimetre slips by.
 
 Rest at an end: with the first three control points equal, C' and C'' vanish at the start (C'(0) ~ P1 - P0,
 C''(0) ~ P2 - 2 P1 + P0 up to the clamped knots' factors), likewise at the end; for simple interior knots nothing weaker
@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.bspline import DEGREE, FloatArray, clamped_knots, refine
+from planner.finer import finer_knots, parts_of
 from planner.intervals import PAD, WIDER, shorten, stretch_of
 from planner.limits import Limits, derivative_bounds
 
@@ -30,15 +31,10 @@ IntArray = NDArray[np.int64]
 
 SHORTEST = 0.1
 """Duration of standing still [s]: a trajectory needs a range of time even when it goes nowhere."""
-PARTS = 4
-"""Finer intervals in each of a shape's: with 8 the duration is 0.2 % less, and everything after it takes twice as long.
-"""
-MOST_INTERVALS = 600
-"""Shapes with many intervals are cut less, to twice this at most, or not at all."""
-MOST_HALVINGS = 8
-EVENNESS = (5.0, 50.0)
-"""Weights of an even rate, tried in turn until the motion is proved: with the first a curve moves by 0.3 mm at most in
-the benchmark worlds, with the second by a tenth of that, at 1 % of the duration.
+CUTS = ((4, 5.0), (8, 20.0))
+"""Parts that a shape's intervals are cut into and the weight of an even rate, tried in turn until the motion is proved.
+On the benchmark worlds' shapes the first moves a curve by 0.16 mm at most, the second by less than 0.03 mm, with a
+duration 0.2 % less but twice as many knots.
 """
 GAP = 0.003
 MOST_STEPS = 60
@@ -93,7 +89,7 @@ def timings(
     via: FloatArray | None = None,
     via_knots: IntArray | None = None,
 ) -> Iterator[Motion]:
-    """Motions along a shape that keep the limits, fastest first; each is farther from the shape than the next.
+    """Motions along a shape that keep the limits; each follows it more closely than the one before.
 
     Parameters
     ----------
@@ -103,18 +99,20 @@ def timings(
                                asked velocity and acceleration [s]; None when they are at rest.
     via : (m, 3)               points that the curve passes [m], at the knots `via_knots` (m,), in spans from the start.
 
-    From rest to rest there is always one; else none when the limits cannot be kept from such a start.
+    From rest to rest there is always one, at last the shape itself on one time scale; else none when the limits cannot
+    be kept from such a start.
     """
     moving = (_moves(control_points[:DEGREE]), _moves(control_points[-DEGREE:]))
-    finer = finer_knots(control_points, knots, limits, duration, moving)
-    points = refine(control_points, knots, finer)
-    for end, moves in ((slice(0, DEGREE), moving[0]), (slice(-DEGREE, None), moving[1])):
-        if not moves:
-            points[end] = control_points[end]
-    pins = None
-    if via is not None and via_knots is not None and len(via):
-        pins = Pins(np.searchsorted(finer, knots[DEGREE + via_knots]), via, parts_of(knots))
-    for evenness in EVENNESS:
+    for most_parts, evenness in CUTS:
+        parts = parts_of(knots, most_parts)
+        finer = finer_knots(control_points, knots, limits, duration, moving, parts)
+        points = refine(control_points, knots, finer)
+        for end, moves in ((slice(0, DEGREE), moving[0]), (slice(-DEGREE, None), moving[1])):
+            if not moves:
+                points[end] = control_points[end]
+        pins = None
+        if via is not None and via_knots is not None and len(via):
+            pins = Pins(np.searchsorted(finer, knots[DEGREE + via_knots]), via, parts)
         found = fastest(points, finer, limits, duration, moving, evenness, pins)
         if found is not None:
             yield found
@@ -158,66 +156,6 @@ def fastest(
 def _moves(end: FloatArray) -> bool:
     """Whether the three control points at an end differ."""
     return bool((end != end[0]).any())
-
-
-def parts_of(knots: FloatArray) -> int:
-    """How many parts each span of a shape is cut into."""
-    parts, spans = PARTS, len(knots) - 2 * DEGREE - 1
-    while parts > 1 and parts * spans > MOST_INTERVALS:
-        parts //= 2
-    return parts
-
-
-def finer_knots(
-    control_points: FloatArray, knots: FloatArray, limits: Limits, duration: float | None, moving: tuple[bool, bool]
-) -> FloatArray:
-    """A shape's knots with each span cut into parts, the outermost of them halved until they resolve the ramps."""
-    breaks = knots[DEGREE:-DEGREE]
-    parts = parts_of(knots)
-    inner = (breaks[:-1, None] + np.diff(breaks)[:, None] * (np.arange(parts) / parts)).ravel()
-    first, last = (inner[1] if parts > 1 else breaks[1]) - breaks[0], breaks[-1] - inner[-1]
-    halvings = []
-    for end, from_end, moves in (
-        (control_points[:4], knots[:6], moving[0]),
-        (control_points[:-5:-1], knots[-1] - knots[:-7:-1], moving[1]),
-    ):
-        if moves:
-            assert duration is not None, "moving ends are set out for a duration"
-            halvings.append(_halvings_moving(end, from_end * duration, parts, limits))
-        else:
-            halvings.append(_halvings(end, parts, limits))
-    fall = 0.5 ** np.arange(MOST_HALVINGS, 0, -1)
-    early = breaks[0] + first * fall[MOST_HALVINGS - halvings[0] :]
-    late = breaks[-1] - last * fall[MOST_HALVINGS - halvings[1] :][::-1]
-    return np.concatenate([knots[:DEGREE], inner[:1], early, inner[1:], late, knots[-DEGREE - 1 :]])
-
-
-def _halvings_moving(end: FloatArray, knots: FloatArray, parts: int, limits: Limits) -> int:
-    """The same at an end in motion: twice, or until the second control point of the velocity keeps the limit too.
-
-    That is the velocity plus half the first interval of acceleration.
-    """
-    first, both = knots[4] - knots[3], knots[5] - knots[3]
-    velocity = 3.0 * (end[1] - end[0]) / first
-    change = 3.0 * (end[2] - end[1]) / both - velocity
-    for halvings in range(2, MOST_HALVINGS):
-        if np.linalg.norm(velocity + change / (parts * 2**halvings)) <= limits.speed:
-            return halvings
-    return MOST_HALVINGS
-
-
-def _halvings(end: FloatArray, parts: int, limits: Limits) -> int:
-    """How often the interval at a rest is halved.
-
-    Full jerk lasts tau = min(a/j, (v/j)^(1/2)) and goes j tau^3/6; a span that begins at rest goes |P3 - P2|/6 f^3 in
-    its fraction f. The first interval shall be no longer than that.
-    """
-    tau = min(limits.acceleration / limits.jerk, (limits.speed / limits.jerk) ** 0.5)
-    way, ramp = float(np.linalg.norm(end[3] - end[2])), limits.jerk * tau**3
-    if not way > 0.0:
-        return 0
-    wanted = (way / ramp) ** (1.0 / 3.0) / parts
-    return int(min(max(np.ceil(np.log2(max(wanted, 1e-9))), 0), MOST_HALVINGS))
 
 
 def uniform_scaling(control_points: FloatArray, limits: Limits, knots: FloatArray | None = None) -> FloatArray:
