@@ -2,7 +2,7 @@
 
 import sys
 
-from benchmarks import bench_mazes, bench_planner, bench_search, bench_simulate, bench_timing
+from benchmarks import bench_fields, bench_mazes, bench_planner, bench_search, bench_simulate, bench_timing
 
 
 def main() -> None:
@@ -10,6 +10,7 @@ def main() -> None:
     bench_planner.main()
     bench_timing.main()
     bench_mazes.main()
+    bench_fields.main()
     bench_search.main()
     bench_simulate.main()
 

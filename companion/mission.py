@@ -10,16 +10,22 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, field_validator, model_validator
 
 from companion.errors import MissionError
+from companion.mapfiles import DEFAULT_AXES, Axes, cloud_in_ned, voxels_in_ned
 from companion.seam import Vector
-from planner import Box, Cylinder, Limits, Sphere, World
+from planner import Box, Cylinder, Limits, PointCloud, Prism, Sphere, VoxelGrid, World
+from planner.errors import WorldFileError
+from planner.prism import MOST_CORNERS
+from planner.worlds import Obstacle as PlannerObstacle
 
 MAX_FILE_BYTES = 1_000_000
 """A mission is written by people; beyond this it is something else."""
 MAX_DEPTH = 32
-"""Of nested lists and mappings; a mission needs five."""
+"""Of nested lists and mappings; a mission needs seven."""
+MAX_MAP_FILES = 16
+"""Voxel and cloud files of one mission."""
 
 Coordinate = Annotated[float, Field(ge=-1e5, le=1e5)]  # [m]: local frames are flat that far, and floats are fine
 Size = Annotated[float, Field(gt=0, le=1e5)]  # [m]
@@ -87,23 +93,78 @@ class SphereShape(_Model):
     radius: Size
 
 
+class Corner(_Model):
+    """A corner of an outline seen from above [m]."""
+
+    north: Coordinate
+    east: Coordinate
+
+
+class PrismShape(_Model):
+    """An upright prism over a simple polygon, convex or not [m]."""
+
+    corners: Annotated[list[Corner], Field(min_length=3, max_length=MOST_CORNERS)]
+    altitude: Range
+
+    @model_validator(mode="after")
+    def _simple(self) -> "PrismShape":
+        self.in_ned()
+        return self
+
+    def in_ned(self) -> Prism:
+        """The planner's prism; ValueError unless the corners are those of a simple polygon."""
+        corners = [(corner.north, corner.east) for corner in self.corners]
+        return Prism(corners, (-self.altitude.high, -self.altitude.low))
+
+
+class MapFile(_Model):
+    """A file of voxels, beside the mission file unless its path says otherwise."""
+
+    file: Annotated[str, Field(min_length=1, max_length=1000, pattern=r"^[^\x00]+$")]
+    axes: Axes = DEFAULT_AXES  # what its columns are
+    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = None  # of its bytes, where that matters
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_name(cls, value: Any) -> Any:
+        return {"file": value} if isinstance(value, str) else value
+
+
+class CloudFile(MapFile):
+    """A file of points."""
+
+    resolution: Annotated[float, Field(ge=0.001, le=1000)] | None = None  # edge of its voxels [m]
+
+
 class Obstacle(_Model):
-    """Exactly one of box, cylinder and sphere."""
+    """Exactly one of box, cylinder, sphere, prism, voxels and cloud."""
 
     box: Extent | None = None
     cylinder: CylinderShape | None = None
     sphere: SphereShape | None = None
+    prism: PrismShape | None = None
+    voxels: MapFile | None = None
+    cloud: CloudFile | None = None
 
     @model_validator(mode="after")
     def _exactly_one(self) -> "Obstacle":
-        if sum(shape is not None for shape in (self.box, self.cylinder, self.sphere)) != 1:
-            raise ValueError("expected exactly one of box, cylinder, sphere")
+        shapes = (self.box, self.cylinder, self.sphere, self.prism, self.voxels, self.cloud)
+        if sum(shape is not None for shape in shapes) != 1:
+            raise ValueError("expected exactly one of box, cylinder, sphere, prism, voxels, cloud")
         return self
 
 
 class WorldModel(_Model):
     bounds: Extent
     obstacles: list[Obstacle] = Field(default_factory=list, max_length=100_000)
+
+    @field_validator("obstacles")
+    @classmethod
+    def _few_files(cls, obstacles: list[Obstacle]) -> list[Obstacle]:
+        files = sum(o.voxels is not None or o.cloud is not None for o in obstacles)
+        if files > MAX_MAP_FILES:
+            raise ValueError(f"found {files} voxel and cloud files, expected at most {MAX_MAP_FILES}")
+        return obstacles
 
 
 class StartPose(_Model):
@@ -195,6 +256,9 @@ class Mission(_Model):
     wind: Wind = Wind()
     expect: Expect = Expect()
 
+    _maps: dict[int, VoxelGrid | PointCloud] = PrivateAttr(default_factory=dict)  # by obstacle; see read_maps
+    _world: World | None = PrivateAttr(default=None)
+
     @field_validator("steps")
     @classmethod
     def _flyable_order(cls, steps: list[Step]) -> list[Step]:
@@ -226,8 +290,10 @@ class Mission(_Model):
             low = (e.north.low, e.east.low, -e.altitude.high)
             return low, (e.north.high, e.east.high, -e.altitude.low)
 
-        obstacles: list[Box | Cylinder | Sphere] = []
-        for obstacle in self.world.obstacles:
+        if self._world is not None:
+            return self._world
+        obstacles: list[PlannerObstacle] = []
+        for index, obstacle in enumerate(self.world.obstacles):
             if obstacle.box is not None:
                 obstacles.append(Box(*corners(obstacle.box)))
             elif obstacle.cylinder is not None:
@@ -237,7 +303,36 @@ class Mission(_Model):
             elif obstacle.sphere is not None:
                 s = obstacle.sphere
                 obstacles.append(Sphere(centre=(s.north, s.east, -s.altitude), radius=s.radius))
-        return World(bounds=corners(self.world.bounds), obstacles=obstacles)
+            elif obstacle.prism is not None:
+                obstacles.append(obstacle.prism.in_ned())
+            else:
+                obstacles.append(self._maps[index])
+        self._world = World(bounds=corners(self.world.bounds), obstacles=obstacles)
+        return self._world
+
+    def read_maps(self, folder: Path) -> list[tuple[list[Any], str]]:
+        """Read the files that the world names, relative to a folder; problems as (keys, what is wrong).
+
+        Done when the mission is parsed, so that nothing that holds a mission reads files.
+        """
+        problems: list[tuple[list[Any], str]] = []
+        for index, obstacle in enumerate(self.world.obstacles):
+            kind = "voxels" if obstacle.voxels is not None else "cloud"
+            try:
+                if obstacle.voxels is not None:
+                    v = obstacle.voxels
+                    self._maps[index] = voxels_in_ned(folder / v.file, v.axes, v.sha256)
+                elif obstacle.cloud is not None:
+                    c = obstacle.cloud
+                    self._maps[index] = cloud_in_ned(folder / c.file, c.axes, c.resolution, c.sha256)
+            except WorldFileError as error:
+                problems.append((["world", "obstacles", index, kind], str(error)))
+        if not problems:
+            try:
+                self.planner_world()
+            except ValueError as error:
+                problems.append((["world", "obstacles"], str(error)))
+        return problems
 
 
 def load_mission(path: str | Path) -> Mission:
@@ -265,7 +360,10 @@ def read_mission_file(path: str | Path) -> bytes:
 
 
 def parse_mission(data: bytes, file: str) -> Mission:
-    """Check a mission given as the bytes of its YAML file; `file` is its name in errors. Raises as `load_mission`."""
+    """Check a mission given as the bytes of its YAML file; `file` is its name in errors. Raises as `load_mission`.
+
+    Files of voxels and clouds are looked for in the folder of `file`.
+    """
     if len(data) > MAX_FILE_BYTES:
         raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
     try:
@@ -289,9 +387,13 @@ def parse_mission(data: bytes, file: str) -> Mission:
     if twice:
         raise MissionError(file, twice)
     try:
-        return Mission.model_validate(document)
+        mission = Mission.model_validate(document)
     except ValidationError as error:
         raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
+    found = mission.read_maps(Path(file).parent)
+    if found:
+        raise MissionError(file, [f"line {_line(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
+    return mission
 
 
 def _refuse_traps(text: str, file: str) -> None:
