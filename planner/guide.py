@@ -17,15 +17,17 @@ from planner.bspline import FloatArray
 from planner.distance import Scene
 from planner.jit import kernel
 from planner.lattice import BUFFER, DEEPEST, SLACK, Lattice, astar, build_lattice, burden_along, free
-from planner.worlds import World
+from planner.worlds import Box, Cylinder, Obstacle, Prism, World
 
 WIDTHS = (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
 """Distances between lattice points tried in turn [m]: those that give a map FEWEST_POINTS to MOST_POINTS; a larger map
 gets wider ones."""
 FEWEST_POINTS, MOST_POINTS = 5_000, 2_000_000
-STOREYS = 4.0
-"""Up and down the points of all but the finest lattice are this many times as far apart: most obstacles stand."""
+STOREYS = 2.0
+"""Up and down the points of all but the finest lattice are this many times as far apart. Where all that is solid stands
+from the bottom of the map to its top, three storeys do."""
 BURDEN = 9.0
+"""What the length of a way that was found counts for in the search for the next."""
 PLACES = 60
 """Along a way, at which two that pass alike see each other."""
 
@@ -110,6 +112,15 @@ def _points(extent: FloatArray, width: float) -> float:
     return float(np.prod(np.maximum(np.ceil(extent / width), 1.0) + 1.0))
 
 
+def _stands(obstacle: Obstacle, low: float, high: float) -> bool:
+    """Whether an obstacle is the same all the way from z = low to high."""
+    if isinstance(obstacle, Box):
+        return bool(obstacle.lower[2] <= low and high <= obstacle.upper[2])
+    if isinstance(obstacle, Cylinder | Prism):
+        return bool(obstacle.z[0] <= low and high <= obstacle.z[1])
+    return False
+
+
 class Guides:
     """The ways from start to goal that pass the obstacles differently, looked for one at a time.
 
@@ -123,9 +134,10 @@ class Guides:
         self.low, self.high = world.walls[0] + radius, world.walls[1] - radius
         self.ends = np.array([start, goal], dtype=np.float64)
         self.widths = widths(self.high - self.low)
+        self.upright = all(_stands(obstacle, self.low[2], self.high[2]) for obstacle in world.obstacles)
         self.level = -1
         self.lattice: Lattice | None = None
-        self.found: list[FloatArray] = []  # (PLACES, 3) along each way so far
+        self.found: list[FloatArray] = []  # (PLACES, 3) along each way so far on this lattice
 
     @property
     def width(self) -> float:
@@ -138,10 +150,13 @@ class Guides:
         return self.level == len(self.widths) - 1
 
     def refine(self) -> None:
-        """Go on with the next finer lattice; call it first of all."""
+        """Go on with the next finer lattice, all ways new on it; call it first of all."""
         self.level += 1
+        self.found.clear()
         width = np.full(3, self.width)
-        if not self.finest:
+        if self.upright:
+            width[2] = max((self.high[2] - self.low[2]) / 2.0, 1e-9)
+        elif not self.finest:
             width[2] *= STOREYS
         self.lattice = build_lattice(self.low, self.high, self.ends, width)
 

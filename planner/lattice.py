@@ -1,9 +1,9 @@
 """A* on a lattice of points in the free space, by edges that are proved clear.
 
 The lattice fills the map less the radius. An edge to one of the 26 neighbours is free when all of it keeps the radius,
-proved with the 1-Lipschitz distance: no solid is too thin to be seen. Edges nearer than BUFFER beyond the radius count
-up to CAUTION times longer, so that the way leads through the middle of what is narrow. Hart, Nilsson & Raphael 1968;
-the heuristic is the straight distance.
+proved with the 1-Lipschitz distance: no solid is too thin to be seen. Edges nearer than BUFFER beyond the radius, to
+walls of the map too, count up to CAUTION times longer, so that the way leads through the middle of what is narrow.
+Hart, Nilsson & Raphael 1968; the heuristic is the straight distance.
 """
 
 import math
@@ -140,7 +140,9 @@ def astar(scene: Scene, lattice: Lattice, radius: float, longest: float) -> NDAr
                     at_end = node == begin or other == target
                     if near < 0.0 and not at_end:
                         continue
-                    dear = way * burden[other] * (1.0 + (CAUTION - 1.0) * max(0.0, 1.0 - near / BUFFER))
+                    walls = min(min(jx, nx - 1 - jx) * sx, min(jy, ny - 1 - jy) * sy, min(jz, nz - 1 - jz) * sz)
+                    close = max(0.0, 1.0 - min(near, walls) / BUFFER)
+                    dear = way * burden[other] * (1.0 + (CAUTION - 1.0) * close)
                     if spent + dear >= cost[other]:
                         continue
                     if at_end:

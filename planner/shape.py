@@ -183,7 +183,7 @@ class _Search:
                 found += self.follow(way, how)
             if found:
                 break
-            if len(ways) == 1:
+            if how is TRIES[0]:
                 others = (guides.another() for _ in range(SIDES - 1))
                 ways += [way for way in others if way is not None]
         if found and len(ways) == 1:

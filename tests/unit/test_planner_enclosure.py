@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import label
 
-from planner import Box, Cylinder, Sphere, World
+from planner import Box, Cylinder, Prism, Sphere, VoxelGrid, World
 from planner.enclosure import PITCHES, apart
 from planner.families import MAZES, maze
 
@@ -54,6 +54,26 @@ def test_spheres_close_a_tube() -> None:
     balls = [Sphere((6, y, z), 0.5) for y in np.arange(0, 8.1, 0.8) for z in np.arange(0, 3.1, 0.8)]
     assert apart(World(BOUNDS, balls), START, GOAL, 0.3, PITCHES)
     assert not apart(World(BOUNDS, [b for b in balls if b.centre[1] != 4.0]), START, GOAL, 0.3, PITCHES)
+
+
+def test_prisms_close_a_wall_askew_and_a_notched_one_is_not_taken_for_its_hull() -> None:
+    askew = Prism(((4.0, -1.0), (4.2, -1.0), (8.2, 9.0), (8.0, 9.0)), (-1, 4))
+    assert apart(World(BOUNDS, [askew]), START, GOAL, 0.3, PITCHES)
+    cup = ((5.0, 2.5), (8.0, 2.5), (8.0, 5.5), (5.0, 5.5), (5.0, 5.3), (7.8, 5.3), (7.8, 2.7), (5.0, 2.7))
+    middle = np.array([6.5, 4.0, 1.5])
+    assert not apart(World(BOUNDS, [Prism(cup, (-1, 4))]), START, middle, 0.3, PITCHES)
+    lid = Box((4.8, 2.5, -1), (5.0, 5.5, 4))
+    assert apart(World(BOUNDS, [Prism(cup, (-1, 4)), lid]), START, middle, 0.3, PITCHES)
+
+
+def test_voxels_close_a_wall_and_a_hole_in_it_opens_it() -> None:
+    voxels = np.zeros((60, 40, 15), dtype=bool)  # of 0.2 m
+    voxels[30] = True
+    world = World(BOUNDS, [VoxelGrid(voxels, (0, 0, 0), 0.2)])
+    assert apart(world, START, GOAL, 0.3, PITCHES)
+    voxels[30, 18:22, 5:9] = False
+    world = World(BOUNDS, [VoxelGrid(voxels, (0, 0, 0), 0.2)])
+    assert not apart(world, START, GOAL, 0.3, PITCHES)
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -114,12 +114,14 @@ def test_no_two_ways_wind_about_all_pillars_alike(pillars: int) -> None:
     assert len(set(windings)) == len(found)
 
 
-def test_over_and_round_a_wall_are_two_ways() -> None:
-    world = World(BOUNDS, [Box((5, -1, -1), (6, 6, 1.5))])
-    found = ways(world, np.array([1.0, 3, 0.7]), np.array([11.0, 3, 0.7]), 4)
-    highest = [samples(path)[:, 2].max() for path in found]
-    assert len(found) >= 2
-    assert min(highest) < 1.5 < 1.8 < max(highest)
+def test_over_a_beam_and_under_it_are_two_ways_but_over_a_wall_and_round_its_end_is_one() -> None:
+    start, goal = np.array([1.0, 3, 0.9]), np.array([11.0, 3, 0.9])
+    beam = [Box((5, 0, -1), (6, 9, 0.4)), Box((5, 0, 1.4), (6, 9, 1.6))]
+    found = ways(World(((0, 2, 0), (12, 4, 3)), beam), start, goal, 5)
+    assert len(found) == 2
+    heights = sorted(np.interp(5.5, path[:, 0], path[:, 2]) for path in found)
+    assert heights[0] < 1.1 < 1.9 < heights[1]
+    assert len(ways(World(BOUNDS, [Box((5, -1, -1), (6, 6, 1.5))]), start, goal, 5)) == 1
 
 
 def test_a_bound_on_the_length_leaves_out_longer_ways() -> None:
