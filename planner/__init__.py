@@ -9,7 +9,8 @@
 The way in is `plan.plan`; what it does is told there in one line. Underneath: `bspline` (curves), `worlds` and
 `distance` (what to miss), `cost` (what is good), `seeds`, `search`, `descent` and `guide` (how to find it),
 `certificate`, `limits` and `timing` (how to prove it), `trajectory` (the result), `errors` (what can go wrong, by how
-much). `plot` draws a plan; it is imported by its own name, since it brings matplotlib.
+much); `movers` and `among` (what moves), `replan`, `warm`, `timed` and `backup` (planning in flight). `plot` draws a
+plan; it is imported by its own name, since it brings matplotlib.
 
 Frame: any Cartesian one, left- or right-handed, as long as everything is given in it; cylinders stand along its z axis.
 Points are (3,), SI units throughout, time starts at 0 at the start of a trajectory. The walls of the map are solid: the
@@ -19,6 +20,7 @@ The first plan of a fresh installation compiles its kernels, which takes seconds
 """
 
 from planner.errors import (
+    BlockedByMovers,
     EndpointError,
     GoalInCollision,
     GoalOutOfBounds,
@@ -34,12 +36,15 @@ from planner.errors import (
     ViaOutOfBounds,
 )
 from planner.limits import Limits
+from planner.movers import MovingBox, MovingSphere
 from planner.plan import METHODS, Plan, Report, plan, warm_up
+from planner.replan import Replanner
 from planner.trajectory import State, Trajectory
 from planner.worlds import Box, Cylinder, PointCloud, Prism, Sphere, VoxelGrid, World
 
 __all__ = [
     "METHODS",
+    "BlockedByMovers",
     "Box",
     "Cylinder",
     "EndpointError",
@@ -48,12 +53,15 @@ __all__ = [
     "InfeasibleLimits",
     "KnotError",
     "Limits",
+    "MovingBox",
+    "MovingSphere",
     "NoPathFound",
     "NoTimingFound",
     "Plan",
     "PlannerError",
     "PointCloud",
     "Prism",
+    "Replanner",
     "Report",
     "Sphere",
     "StartInCollision",

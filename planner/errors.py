@@ -12,6 +12,7 @@
         ViaOutOfBounds
       NoPathFound           there is no way (proved), or the search ended without a certified trajectory (not proved)
         NoTimingFound       curves there are, but none that can be flown from the state at the start
+        BlockedByMovers     trajectories there are, but none that was proved to miss what moves
 
 Every number in a message is also an attribute. All of them survive pickling, since plans are made in worker processes:
 the constructor's arguments are exactly `Exception.args`, and the sentence is built when it is read.
@@ -247,4 +248,23 @@ class NoTimingFound(NoPathFound):
         return (
             f"no timing found: {self.curves} curves keep {self.radius:.3f} m, but from {self.speed:.3g} m/s and "
             f"{self.acceleration:.3g} m/s^2 at the start none of them can be flown within the limits"
+        )
+
+
+class BlockedByMovers(NoPathFound):
+    """`curves` keep the radius from what stands still, none was proved to keep it from what moves.
+
+    None of the ways of flying them did: as they are, past the movers on other sides, slower, after a wait. `mover` is
+    in the way of the best of them at `time` [s].
+    """
+
+    def __init__(self, curves: int, evaluations: int, mover: int, time: float, radius: float) -> None:
+        super().__init__(curves, evaluations, 0.0, radius, math.inf, math.inf)
+        self.args = (curves, evaluations, mover, time, radius)
+        self.curves, self.mover, self.time = curves, mover, time
+
+    def __str__(self) -> str:
+        return (
+            f"no path found among the movers: {self.curves} curves keep {self.radius:.3f} m from all that stands "
+            f"still, but mover {self.mover} is in the way at {self.time:.2f} s, on other sides, slower and later too"
         )

@@ -12,12 +12,14 @@ from functools import partial
 import numpy as np
 
 from planner import errors
+from planner.among import Passage, among
 from planner.bspline import FloatArray
 from planner.certificate import Certificate, certify, end_needed
 from planner.distance import nearest_exact
 from planner.enclosure import PITCHES, apart
 from planner.guide import Guides
 from planner.limits import Limits
+from planner.movers import Mover, MoverProof, table
 from planner.query import Query
 from planner.shape import Effort, Shape, haoaroa
 from planner.stopwatch import Stopwatch
@@ -39,6 +41,10 @@ CURVES = 4
 """Looked at for each pace."""
 HAIR = 1e-11
 """Of a limit, what a state at it is short of, so that rounding does not put it beyond."""
+
+
+ALTERNATIVES = 6
+"""Curves that are tried among movers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +70,9 @@ class Plan:
     trajectory: Trajectory
     length: float  # [m]
     clearance: (
-        float  # proved lower bound on the distance to the nearest obstacle, minus the radius [m]; inf without any
+        float  # proved lower bound on the distance to any obstacle or mover, less the radius [m]; inf without any
     )
-    certified: bool  # the whole curve keeps the radius from obstacles and walls, and the limits hold everywhere
+    certified: bool  # the whole curve keeps the radius from obstacles, walls and movers, and the limits hold everywhere
     cpu_ms: float  # CPU time of this thread [ms]; the one number here that differs from run to run
     method: str
     report: Report
@@ -85,6 +91,7 @@ def plan(
     start_acceleration: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
     goal_velocity: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
     via: Sequence[Sequence[float] | FloatArray] | FloatArray = (),
+    movers: Sequence[Mover] = (),
 ) -> Plan:
     """Plan from `start` to `goal`, from rest to rest unless told otherwise.
 
@@ -99,6 +106,8 @@ def plan(
     start_velocity, start_acceleration : (3,)    at the start [m/s, m/s^2].
     goal_velocity : (3,)    at the goal, which is passed without acceleration [m/s].
     via : (m, 3)            points that the curve passes, in this order, MOST_VIA of them at most [m].
+    movers : sequence of MovingSphere or MovingBox    missed too while the trajectory lasts, each where it is predicted
+        by then, in the trajectory's time; nothing is claimed about standing at the goal afterwards.
 
     Raises
     ------
@@ -109,7 +118,8 @@ def plan(
         end at the radius exactly is refused too, since rounding leaves nothing to prove it by.
     ViaInCollision, ViaOutOfBounds : the same of a via point, and which.
     NoPathFound : nothing could be proved within the budget; as NoTimingFound, curves there are, but the limits do not
-        let them be flown from the velocity at the start or to that at the goal.
+        let them be flown from the velocity at the start or to that at the goal; as BlockedByMovers, trajectories there
+        are, but none of them was proved to miss the movers.
     """
     watch = Stopwatch()
     if method not in METHODS:
@@ -142,7 +152,9 @@ def plan(
         goal_velocity=_state("goal_velocity", goal_velocity, limits.speed),
         via=np.array(through).reshape(-1, 3),
     )
+    crowd = table(movers)
     effort, curves = Effort(), 0
+    blocked: list[MoverProof] = []
     refusal: errors.NoPathFound | None = None
     made: Plan | None = None
     for pace, guides in PACES if query.moving else ((1.0, True),):
@@ -151,13 +163,24 @@ def plan(
                 curves += 1
                 made = finish(query, shape, effort, method, watch) or made
                 if made is not None and made.certified:
-                    return made
+                    if not len(crowd):
+                        return made
+                    found = among(made.trajectory, query, crowd)
+                    effort.evaluations += found.evaluations
+                    if found.certified:
+                        return _passing(made, found, effort, watch, query.radius)
+                    blocked.append(found.movers)
+                    made = None
+                    if len(blocked) >= ALTERNATIVES:
+                        break
                 if query.moving and k + 1 >= CURVES:
                     break
         except errors.NoPathFound as error:
             refusal = error
             if error.proved:
                 break
+    if blocked:
+        raise _blocked(blocked, effort, query)
     if made is not None and refusal is None:
         return made
     if curves and query.moving:
@@ -165,6 +188,31 @@ def plan(
         raise errors.NoTimingFound(curves, effort.evaluations, float(speed), float(acceleration), query.radius)
     assert refusal is not None, f"{method} hands over a shape or raises"
     raise refusal
+
+
+def _passing(made: Plan, found: Passage, effort: Effort, watch: Stopwatch, radius: float) -> Plan:
+    """The plan with the trajectory that misses the movers."""
+    measures = found.trajectory.measures()
+    report = replace(
+        made.report,
+        evaluations=effort.evaluations,
+        curvature_max=measures.curvature_max,
+        jerk_integral=measures.jerk_integral,
+    )
+    return replace(
+        made,
+        trajectory=found.trajectory,
+        length=measures.length,
+        clearance=min(found.obstacle_distance, found.movers.distance) - radius,
+        cpu_ms=watch.elapsed_ms(),
+        report=report,
+    )
+
+
+def _blocked(proofs: list[MoverProof], effort: Effort, query: Query) -> errors.BlockedByMovers:
+    """Of the first trajectory: the shortest."""
+    first = proofs[0]
+    return errors.BlockedByMovers(len(proofs), effort.evaluations, first.mover, first.time, query.radius)
 
 
 def _state(name: str, value: Sequence[float] | FloatArray, limit: float) -> FloatArray:
