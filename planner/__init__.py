@@ -7,7 +7,8 @@
     p.trajectory.position(1.0)
 
 The way in is `plan.plan`; what it does is told there in one line. Underneath: `bspline` (curves), `worlds` and
-`distance` (what to miss), `cost` (what is good), `seeds`, `search`, `descent` and `guide` (how to find it),
+`distance` (what to miss), `cost` (what is good), `seeds`, `search`, `descent`, `guide` and `lattice` (how to find it), `enclosure` (why there is
+none), `families` (worlds to try it on),
 `certificate`, `limits` and `timing` (how to prove it), `trajectory` (the result), `errors` (what can go wrong, by how
 much); `movers` and `among` (what moves), `replan`, `warm`, `timed` and `backup` (planning in flight). `plot` draws a
 plan; it is imported by its own name, since it brings matplotlib.
