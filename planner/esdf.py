@@ -8,7 +8,7 @@ serves both sides; a corner with eight occupied voxels around it lies inside. Be
 
 The transform is separable: two sweeps along z, then along y and x the lower envelope of parabolas, one for each point
 with a finite distance so far (Felzenszwalb & Huttenlocher, Distance Transforms of Sampled Functions, Theory of
-Computing 8 (2012), algorithm 1), linear in the number of points.
+Computing 8 (2012), algorithm 1), linear in the number of points; among close voxels it is quicker to look around.
 """
 
 import math
@@ -20,6 +20,8 @@ from planner.jit import kernel
 
 FAR = 1e18
 """A squared distance no lattice has: nothing occupied yet on this line."""
+REACH = 12
+"""Voxels that `near_minima` looks around at most."""
 Float32Array = NDArray[np.float32]
 Float64Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -53,13 +55,10 @@ def mark_surface(occupied: BoolArray, inside: BoolArray, squares: Float32Array) 
 
 
 @kernel
-def lower_envelope(
-    f: Float64Array, out: Float64Array, hull: IntArray, begin: IntArray, half_inverse: Float64Array, n: int
-) -> None:
+def lower_envelope(f: Float64Array, out: Float64Array, hull: IntArray, begin: IntArray, n: int) -> None:
     """out[q] = min_p (q - p)^2 + f[p] for q, p in 0 .. n - 1; all FAR when every f is.
 
     hull, begin : scratch (n,), (n + 1,)  the envelope's parabolas by their p, and the first q where each is lowest.
-    half_inverse : (n,)  1 / (2 m) at index m.
     """
     top = -1
     for q in range(n):
@@ -70,7 +69,7 @@ def lower_envelope(
         while top >= 0:
             p = hull[top]
             # Where parabola q passes below parabola p; equal heights at a whole number may fall on either.
-            start = math.floor(((height - f[p]) + (q * q - p * p)) * half_inverse[q - p]) + 1
+            start = math.floor(((height - f[p]) + (q * q - p * p)) / (2 * (q - p))) + 1
             if start > begin[top]:
                 break
             top -= 1
@@ -91,6 +90,55 @@ def lower_envelope(
 
 
 @kernel
+def near_minima(f: Float32Array, out: Float32Array, n: int) -> bool:
+    """As `lower_envelope` along the first axis of f (n, m), by looking around; False when REACH is not enough.
+
+    Where occupied voxels lie close together this is far quicker, since all m are done at once; where they do not, it
+    gives up at the first row.
+    """
+    m = f.shape[1]
+    for q in range(n):
+        for k in range(m):
+            out[q, k] = f[q, k]
+        step = 1
+        while True:
+            square = np.float32(step * step)
+            most = np.float32(0.0)
+            for k in range(m):
+                most = max(most, out[q, k])
+            if most <= square:
+                break
+            if step > REACH:
+                return False
+            if q >= step:
+                for k in range(m):
+                    out[q, k] = min(out[q, k], f[q - step, k] + square)
+            if q + step < n:
+                for k in range(m):
+                    out[q, k] = min(out[q, k], f[q + step, k] + square)
+            step += 1
+    return True
+
+
+@kernel
+def spread(
+    sheet: Float32Array, out: Float32Array, lines: Float64Array, hull: IntArray, begin: IntArray, n: int
+) -> None:
+    """out[q, k] = min_p (q - p)^2 + sheet[p, k] for each k; lines (2, m, n), hull and begin are scratch."""
+    if near_minima(sheet, out, n):
+        return
+    m = sheet.shape[1]
+    for q in range(n):
+        for k in range(m):
+            lines[0, k, q] = sheet[q, k]
+    for k in range(m):
+        lower_envelope(lines[0, k], lines[1, k], hull, begin, n)
+    for q in range(n):
+        for k in range(m):
+            out[q, k] = lines[1, k, q]
+
+
+@kernel
 def signed_distances(occupied: BoolArray, resolution: float) -> Float32Array:
     """Signed distance [m] of every corner (nx + 1, ny + 1, nz + 1) to the cubes' surface, negative inside them.
 
@@ -103,27 +151,20 @@ def signed_distances(occupied: BoolArray, resolution: float) -> Float32Array:
     mark_surface(occupied, inside, squares)
     longest = max(nx, ny)
     hull, begin = np.empty(longest, dtype=np.int64), np.empty(longest + 1, dtype=np.int64)
-    half_inverse = np.empty(longest)
-    for m in range(1, longest):
-        half_inverse[m] = 0.5 / m
-    lines, out = np.empty((nz, longest)), np.empty((nz, longest))  # gathered: neighbours lie far apart in memory
+    sheet, out = np.empty((longest, nz), dtype=np.float32), np.empty((longest, nz), dtype=np.float32)
+    lines = np.empty((2, nz, longest))
     for i in range(nx):
+        spread(squares[i], out, lines, hull, begin, ny)
         for j in range(ny):
             for k in range(nz):
-                lines[k, j] = squares[i, j, k]
-        for k in range(nz):
-            lower_envelope(lines[k], out[k], hull, begin, half_inverse, ny)
-        for j in range(ny):
-            for k in range(nz):
-                squares[i, j, k] = out[k, j]
+                squares[i, j, k] = out[j, k]
     for j in range(ny):
+        for i in range(nx):  # gathered: neighbours along x lie far apart in memory
+            for k in range(nz):
+                sheet[i, k] = squares[i, j, k]
+        spread(sheet, out, lines, hull, begin, nx)
         for i in range(nx):
             for k in range(nz):
-                lines[k, i] = squares[i, j, k]
-        for k in range(nz):
-            lower_envelope(lines[k], out[k], hull, begin, half_inverse, nx)
-        for i in range(nx):
-            for k in range(nz):
-                d = resolution * math.sqrt(out[k, i])
+                d = resolution * math.sqrt(float(out[i, k]))
                 squares[i, j, k] = -d if inside[i, j, k] else d
     return squares
