@@ -25,7 +25,7 @@ from planner.shape import Effort, Shape, haoaroa
 from planner.stopwatch import Stopwatch
 from planner.timing import Motion, timings, within
 from planner.trajectory import Trajectory
-from planner.worlds import KINDS, Box, Point, World, as_point
+from planner.worlds import KINDS, Box, Point, VoxelGrid, World, as_point
 
 Finder = Callable[[Query, Effort], Iterator[Shape]]
 """A method: hands over shapes, most promising first, and counts what they took. The first whose timed form is proved
@@ -234,6 +234,7 @@ def warm_up() -> None:
         guides.another()
     apart(world, ends[0], ends[1], 0.1, PITCHES[:1])
     world.distance(ends)
+    VoxelGrid(np.ones((1, 1, 1), dtype=np.bool_), (0.0, 0.0, 0.0), 1.0)  # builds a field
     plan(world, ends[0], ends[1], Limits(1.0, 1.0, 10.0), 0.1)
 
 
