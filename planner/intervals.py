@@ -42,6 +42,8 @@ WIDER = 1.02
 """s beyond what the limits need at least, while it is above 1."""
 EVEN_WIDE = 1.0
 """Meanwhile the evenness weighs no more than this."""
+HALVINGS = 20
+"""Of a step, before none is taken."""
 BAND = 5
 """Diagonals kept of the symmetric Hessian: row i holds its columns i .. i + 4."""
 
@@ -296,7 +298,9 @@ def shorten(
         for i in range(PAD, m + PAD):
             if step[i] > 0.0:
                 part = min(part, 0.95 * (e[i] - FLOOR / rate[i - PAD]) / step[i])
-        for _ in range(20):
+        for halving in range(HALVINGS + 1):
+            if halving == HALVINGS:
+                part = 0.0  # back to where it was
             for i in range(PAD, m + PAD):
                 new[i] = e[i] - part * step[i]
             derivatives(points, new, V, A, J)
@@ -304,10 +308,7 @@ def shorten(
             if after <= before - 1e-4 * part * decrement:
                 break
             part *= 0.5
-        if after < before:
-            e[:] = new
-        else:
-            derivatives(points, e, V, A, J)
+        e[:] = new
         if wide > 1.0:
             narrower = WIDER * stretch_needed(V, A, J, limits, held)
             if not narrower < wide and before - after < IDLE:
