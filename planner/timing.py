@@ -22,9 +22,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.barrier import PAD
 from planner.bspline import DEGREE, FloatArray, clamped_knots, refine
 from planner.finer import finer_knots, parts_of
-from planner.intervals import PAD, WIDER, shorten, stretch_of
+from planner.intervals import WIDER, shorten, stretch_of
 from planner.limits import Limits, derivative_bounds
 
 IntArray = NDArray[np.int64]
