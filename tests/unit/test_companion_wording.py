@@ -28,3 +28,11 @@ def test_a_bad_end_is_told_in_the_mission_files_words_with_what_is_missing(start
     text = refusal(start, goal)
     assert words in text
     assert "more are needed to keep 0.5 m" in text
+
+
+def test_a_bad_via_point_is_told_in_the_same_words_with_its_number():
+    with pytest.raises(PlannerError) as caught:
+        plan(WORLD, (1, 1, -2), (9, 9, -2), Limits(3, 6, 60), 0.5, via=[(1, 9, -2), (5, 5, -2)])
+    assert "the via point 1 at north 5, east 5, altitude 2 is 1.00 m inside obstacle 0 (box)" in in_mission_words(
+        caught.value
+    )

@@ -177,3 +177,24 @@ def test_touching_exactly_is_not_called_clear() -> None:
     world = World(((-1, -5, -5), (11, 5, 5)), [Box((0, 0.5, -1), (10, 1, 1))])
     assert not certify(points, clamped_knots(12), world, 0.5).certified
     assert certify(points, clamped_knots(12), world, 0.5 - 1e-6).certified
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_length_curvature_and_jerk_are_those_of_scipys_dense_samples(seed: int) -> None:
+    knots = np.concatenate([np.zeros(4), np.sort(np.random.default_rng(seed).uniform(0.5, 5.5, 10)), np.full(4, 6.0)])
+    trajectory = Trajectory(wavy(seed=seed), knots)
+    spline, t = BSpline(knots, trajectory.control_points, 3), np.linspace(0, 6.0, 400_001)[:-1] + 7.5e-6
+    v, a, j = (spline.derivative(k)(t) for k in (1, 2, 3))
+    speed = np.linalg.norm(v, axis=1)
+    curvature = (np.linalg.norm(np.cross(v, a), axis=1) / speed**3)[speed > 0.01 * speed.max()].max()
+    measures = trajectory.measures()
+    assert measures.length == pytest.approx(speed.mean() * 6.0, rel=1e-5)
+    assert measures.jerk_integral == pytest.approx((j**2).sum(axis=1).mean() * 6.0, rel=1e-3)
+    assert 0.6 * curvature <= measures.curvature_max <= curvature * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 1e200])
+def test_what_is_no_number_is_within_no_limit(bad: float) -> None:
+    points = wavy()
+    points[7, 1] = bad
+    assert not within(points, clamped_knots(14, 100.0), LIMITS)
