@@ -75,11 +75,13 @@ def dash(state: FloatArray, direction: FloatArray, pushes: int, limits: FloatArr
                 size += b[c] * b[c]
                 change += (b[c] - now[c]) ** 2
             t1, t3 = max(0.02, math.sqrt(change) / snap), max(0.02, math.sqrt(size) / snap)
-        size = 0.0
+        size, change = 0.0, 0.0
         for c in range(3):
             b[c] = -(v[c] + now[c] * t1 / 2.0) / (t1 / 2.0 + t2 + t3 / 2.0)
             size += b[c] * b[c]
-        if math.sqrt(size) <= push:
+            change += (b[c] - now[c]) ** 2
+        size, change = math.sqrt(size), math.sqrt(change)
+        if size <= push and change <= 1.01 * snap * t1 and size <= 1.01 * snap * t3:  # 1.01 FULL is below 1
             break
     else:
         return np.empty((0, 3)), knots

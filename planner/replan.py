@@ -23,11 +23,11 @@ from planner.bspline import FloatArray
 from planner.certificate import end_needed, needed
 from planner.errors import GoalInCollision, GoalOutOfBounds, PlannerError
 from planner.limits import Limits
-from planner.movers import UNTIL, Mover, rounding, table
+from planner.movers import UNTIL, Mover, MovingSphere, rounding, table
 from planner.plan import check_endpoint, plan
 from planner.trajectory import Trajectory
 from planner.warm import ROUNDS, Ask, Found, judge, warm
-from planner.worlds import World, as_point
+from planner.worlds import Cylinder, World, as_point
 
 SPAN, STOPPING_SPAN = 0.25, 0.16
 """Aimed spans of a warm plan and of a stop [s]."""
@@ -39,6 +39,8 @@ BUFFER = 0.12
 """How far beyond the radius the hinge of solids begins [m]."""
 SIDESTEP = 0.9
 """By how much a seed is pushed aside to pass something on another side [m]."""
+AMPLE = 1.03
+"""Of the remaining time, what a way on that has to be found is given: a route is often as fast as the limits let it."""
 BETTER = 0.02
 """How much farther from movers [m] a plan must keep to be worth a switch."""
 LOOK = 2.0
@@ -258,7 +260,7 @@ class Replanner:
                 return quicker
             return self._made(m, Kind.KEEP, flight, True, clearance, mover, "clear")
         best: Found | None = None
-        for found, why in self._ways_on(m, remaining):
+        for found, why in self._ways_on(m, remaining if fine else AMPLE * remaining):
             if found.clear:
                 if fine and found.distance <= distance + BETTER:
                     break  # no better than what is flown
@@ -423,4 +425,16 @@ class Replanner:
         return float(t[int(np.argmin(((self._route.position(t) - place) ** 2).sum(axis=1)))])
 
 
-__all__ = ["Decision", "Flight", "Kind", "Replanner", "Settings"]
+def warm_up() -> None:
+    """Compile what planning in flight needs beyond `plan.warm_up`: half a minute once, then none."""
+    world = World(((0.0, 0.0, 0.0), (6.0, 6.0, 2.0)), [Cylinder((3.0, 3.0), 0.3, (0.0, 2.0))])
+    limits = Limits(2.0, 4.0, 40.0)
+    replanner = Replanner(world, limits, 0.2, plan(world, (0.5, 3.0, 1.0), (5.5, 3.0, 1.0), limits, 0.2).trajectory)
+    for tick in range(3):
+        replanner.step(0.1 * tick, [MovingSphere((3.0, 4.0, 1.0), (0.0, -0.5, 0.0), 0.3, stamp=0.1 * tick)])
+    replanner.remap(world)
+    replanner.retarget((5.4, 3.1, 1.0))
+    replanner.step(0.4)
+
+
+__all__ = ["Decision", "Flight", "Kind", "Replanner", "Settings", "warm_up"]

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from planner.bspline import FloatArray
 from planner.cost import hinge
-from planner.distance import SPHERE, Scene, solid_distance
+from planner.distance import PRISM, SPHERE, Scene, plain_distance, prism_distance, solid_distance
 from planner.field import interpolate
 from planner.jit import kernel
 from planner.movers import mover_distance
@@ -221,7 +221,11 @@ def add_hinges(m: Timed) -> float:
             z = b0 * p[span, 2] + b1 * p[span + 1, 2] + b2 * p[span + 2, 2] + b3 * p[span + 3, 2]
             fx, fy, fz = 0.0, 0.0, 0.0
             for item in range(first, end):
-                d, gx, gy, gz = solid_distance(solids, edges, items[item], x, y, z)
+                o = items[item]
+                if solids[o, 0] < PRISM:
+                    d, gx, gy, gz = plain_distance(solids, o, x, y, z)
+                else:
+                    d, gx, gy, gz = prism_distance(solids, edges, o, x, y, z)
                 if d < c:
                     h, dh = hinge(c - d, c)
                     total += ks * h

@@ -28,7 +28,7 @@ TOLERANCE = 2e-4
 STIFFER = 4.0
 LONGEST_STEP = 0.5
 """Of a control point's coordinate in one step of the descent [m]."""
-ROOM = 0.8
+ROOM = 0.5
 """How far a control point may move before solids that were left out matter [m]; the proof sees all of them."""
 JOINING = 1.2
 """In which a seed comes back to its route [s]."""
@@ -331,7 +331,7 @@ def warm(
         free, within, passed, distance, mover, when = judge(ask, points, knots, 0.0, begin, hold)
         still = within and free
         clear = still and passed
-        if clear or turn == rounds - 1:
+        if clear or turn == rounds - 1 or (turn >= 2 and not free):
             if not free:
                 when = nearest_still(m)
             break
