@@ -251,7 +251,7 @@ class Mission(_Model):
     vehicle: VehicleModel
     world: WorldModel
     limits: LimitsModel = LimitsModel()
-    method: Literal["haoaroa"] = "haoaroa"
+    method: Literal["haoaroa", "astar", "jps", "bezier", "lbsgf", "aoa", "roa"] = "haoaroa"  # planner.METHODS
     steps: Annotated[list[Step], Field(min_length=2, max_length=10_000)]
     wind: Wind = Wind()
     expect: Expect = Expect()

@@ -226,6 +226,8 @@ class NoPathFound(PlannerError):
             graph = f"the search graph shows no way through {cells}"
         else:
             graph = f"the search graph's way of {self.way:.1f} m through {cells} could not be followed"
+        if not self.tried:
+            return f"no path found: {graph} for a radius of {self.radius:.3f} m; that is no proof"
         return (
             f"no path found: gave up after {self.tried} curves polished with {self.evaluations} evaluations, none "
             f"keeps {self.radius:.3f} m everywhere; the best one lacks {_lack(self.shortfall)}; {graph}"

@@ -5,6 +5,7 @@
 A method (`shape` has HAOAROA's, `baselines` its rivals') finds curves in space; timing and proof are the same for all.
 """
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -13,6 +14,10 @@ import numpy as np
 
 from planner import errors
 from planner.among import Passage, among
+from planner.baselines.bezier import find_bezier
+from planner.baselines.lbsgf import find_lbsgf
+from planner.baselines.parents import find_aoa, find_roa
+from planner.baselines.polyline import find_astar, find_jps
 from planner.bspline import FloatArray
 from planner.certificate import Certificate, certify, end_needed
 from planner.distance import nearest_exact
@@ -30,7 +35,15 @@ from planner.worlds import KINDS, Box, Point, VoxelGrid, World, as_point
 Finder = Callable[[Query, Effort], Iterator[Shape]]
 """A method: hands over shapes, most promising first, and counts what they took. The first whose timed form is proved
 becomes the plan, else the last; a method that wants no unproved plan raises NoPathFound in the end."""
-FINDERS: dict[str, Finder] = {"haoaroa": haoaroa}
+FINDERS: dict[str, Finder] = {
+    "haoaroa": haoaroa,
+    "astar": find_astar,
+    "jps": find_jps,
+    "bezier": find_bezier,
+    "lbsgf": find_lbsgf,
+    "aoa": find_aoa,
+    "roa": find_roa,
+}
 METHODS = tuple(FINDERS)
 MOST_VIA = 25
 PACES = ((1.0, False), (1.6, False), (2.5, False), (4.0, False), (1.0, True), (2.5, True))
@@ -56,10 +69,10 @@ class Report:
     seeds_tried: int  # curves polished and put to the proof
     seeds_certified: int
     guided: bool  # whether the search graph had to help
-    stretch: float  # J_stretch [m]
+    stretch: float  # J_stretch [m]; NaN, as the next two, for methods that do not know the cost
     smoothness: float  # J_smooth [m]
     obstacle: float  # J_obstacle, at its first weight [m]
-    curvature_max: float  # of the shape, sampled [1/m]
+    curvature_max: float  # sampled [1/m]; inf where it stops and turns on the spot
     jerk_integral: float  # int |jerk|^2 dt, exact [m^2/s^5]
 
 
@@ -287,7 +300,7 @@ def finish(query: Query, shape: Shape, effort: Effort, method: str, watch: Stopw
         stretch=shape.stretch,
         smoothness=shape.smoothness,
         obstacle=shape.obstacle,
-        curvature_max=measures.curvature_max,
+        curvature_max=math.inf if shape.turns_on_spot else measures.curvature_max,
         jerk_integral=measures.jerk_integral,
     )
     return Plan(

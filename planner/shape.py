@@ -78,6 +78,7 @@ class Shape:
     obstacle: float  # J_obstacle, at its first weight [m]
     duration: float | None = None  # what the ends' points are set out for [s]; None: at rest at both ends
     via_knots: IntArray | None = None  # (m,) knots, in spans from the start, where the via points are passed
+    turns_on_spot: bool = False  # whether it stops at a corner and goes on another way: curvature without bound
 
     @property
     def value(self) -> float:
@@ -110,11 +111,11 @@ def haoaroa(query: Query, effort: Effort) -> Iterator[Shape]:
     ------
     NoPathFound : when asked for more than could be proved within the budget.
     """
-    return _Search(query, effort).shapes()
+    return Search(query, effort).shapes()
 
 
-class _Search:
-    """One search's working state."""
+class Search:
+    """One search's working state; rivals that search on the same cost begin with it too."""
 
     def __init__(self, query: Query, effort: Effort) -> None:
         self.query, self.effort = query, effort
@@ -130,7 +131,7 @@ class _Search:
 
     def shapes(self) -> Iterator[Shape]:
         query, effort = self.query, self.effort
-        cost = self.spline_cost(query.legs, Try(SPACING, np.inf, np.inf), MOST)
+        cost = self.first_cost()
         candidates = self.search(cost)
         yield from self.prove_all(itertools.islice(candidates, ELITES), cost, HOPELESS)
         if not query.guides:
@@ -223,10 +224,13 @@ class _Search:
             via_knots=knots_of_legs(legs, n - DEGREE),
         )
 
-    def search(self, cost: SplineCost) -> Iterator[FloatArray]:
-        """HAOAROA from the fan; the best of each candidate, best first, those near a better one left out."""
-        query = self.query
-        f = cost.n - 2 * FIXED
+    def first_cost(self) -> SplineCost:
+        """The cost that the fan's curves are judged by."""
+        return self.spline_cost(self.query.legs, TRIES[0], MOST)
+
+    def seeds(self, cost: SplineCost) -> FloatArray:
+        """The fan (POPULATION, 3 f)."""
+        query, f = self.query, cost.n - 2 * FIXED
         if len(query.via):
             at = cost.problem.via_at
             seeds = fan_through(query.corners, self.lower, self.upper, at, cost.n, POPULATION, self.generator)
@@ -234,6 +238,12 @@ class _Search:
             seeds = fan(query.start, query.goal, self.lower, self.upper, cost.n, POPULATION, self.generator)
         if query.moving:
             seeds = np.clip(seeds + swerve(query, cost.n, cost.way), np.tile(self.lower, f), np.tile(self.upper, f))
+        return seeds
+
+    def search(self, cost: SplineCost) -> Iterator[FloatArray]:
+        """HAOAROA from the fan; the best of each candidate, best first, those near a better one left out."""
+        seeds = self.seeds(cost)
+        f = cost.n - 2 * FIXED
         optimiser = Haoaroa(
             np.tile(self.lower, f),
             np.tile(self.upper, f),

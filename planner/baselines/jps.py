@@ -83,7 +83,10 @@ def rules(stride_x: int, stride_y: int) -> Rules:
     strides = np.array([stride_x, stride_y, 1])
     most = max(len(row) for row in FORCED)
     widest = max(len(offsets) for row in FORCED for _, offsets in row)
-    blockers, counts = np.zeros((len(MOVES), most, widest), dtype=np.int64), np.zeros((len(MOVES), most), dtype=np.int64)
+    blockers, counts = (
+        np.zeros((len(MOVES), most, widest), dtype=np.int64),
+        np.zeros((len(MOVES), most), dtype=np.int64),
+    )
     for d, row in enumerate(FORCED):
         for k, (_, offsets) in enumerate(row):
             counts[d, k] = len(offsets)
