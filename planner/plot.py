@@ -52,11 +52,7 @@ def save_plot(
     trajectory = plan.trajectory
     t = np.linspace(0.0, trajectory.duration, SAMPLES)
     points, velocity, acceleration = trajectory.position(t), trajectory.velocity(t), trajectory.acceleration(t)
-    signs = np.array([-1.0 if name.startswith("-") else 1.0 for name in names])
-    labels = [name.removeprefix("-") for name in names]
-    right, up = (1, 0) if labels[0] == "north" else (0, 1)
-    view = np.zeros((3, 2))  # takes a point to the page: points @ view
-    view[right, 0], view[up, 1] = signs[right], signs[up]
+    view, labels, up_sign = view_of(names)
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
 
     figure = Figure(figsize=(11.0, 6.2), dpi=130, layout="constrained")
@@ -65,8 +61,9 @@ def save_plot(
     top = figure.add_subplot(grid[:, 0])
     height, speed = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
 
-    _draw_top(top, world, points, view, radius)
-    top.set(xlabel=f"{labels[right]} [m]", ylabel=f"{labels[up]} [m]")
+    draw_map(top, world, points[:, 2].min(), points[:, 2].max(), view, radius)
+    draw_path(top, points @ view)
+    top.set(xlabel=f"{labels[0]} [m]", ylabel=f"{labels[1]} [m]")
     clearance, nearest = world.distance(points), 0
     if world.obstacles:
         nearest = int(np.argmin(clearance))
@@ -77,16 +74,16 @@ def save_plot(
     title = f"{plan.method}: {plan.length:.2f} m in {trajectory.duration:.2f} s, {proved}"
     figure.suptitle(title, x=0.01, ha="left", fontsize=12)
 
-    low, high = sorted(signs[2] * world.walls[:, 2])
-    _draw_voxels_beside(height, world, points, gone, signs[2])
+    low, high = sorted(up_sign * world.walls[:, 2])
+    _draw_voxels_beside(height, world, points, gone, up_sign)
     for solid in _solids(world):
         bottom, ceiling = _slice(solid, points)
-        height.fill_between(gone, signs[2] * bottom, signs[2] * ceiling, color=SOLID, alpha=0.55, lw=0)
-    height.plot(gone, signs[2] * points[:, 2], color=PATH, lw=2)
+        height.fill_between(gone, up_sign * bottom, up_sign * ceiling, color=SOLID, alpha=0.55, lw=0)
+    height.plot(gone, up_sign * points[:, 2], color=PATH, lw=2)
     height.axhline(low, color="black", lw=1)
     height.axhline(high, color="black", lw=1)
     if world.obstacles:
-        height.plot(gone[nearest], signs[2] * points[nearest, 2], "o", color=ACCENT, ms=5)
+        height.plot(gone[nearest], up_sign * points[nearest, 2], "o", color=ACCENT, ms=5)
     margin = 0.06 * (high - low)
     height.set(xlabel="way gone [m]", ylabel=f"{labels[2]} [m]", ylim=(low - margin, high + margin), xlim=(0, gone[-1]))
     height.set_title("height along the way (grey: obstacles above and below it)", loc="left", fontsize=10)
@@ -105,14 +102,24 @@ def save_plot(
     figure.savefig(path)
 
 
-def _draw_top(axes: Axes, world: World, points: FloatArray, view: FloatArray, radius: float) -> None:
-    """Bounds, obstacles (darker where they reach the path's height), halo, path."""
+def view_of(names: tuple[str, str, str]) -> tuple[FloatArray, tuple[str, str, str], float]:
+    """For the names of the axes as `save_plot` takes them: what takes points to the page (3, 2), as points @ view; the
+    names of the page's axes, to the right, up, and out of it; and the sign of the third."""
+    signs = [-1.0 if name.startswith("-") else 1.0 for name in names]
+    labels = [name.removeprefix("-") for name in names]
+    right, up = (1, 0) if labels[0] == "north" else (0, 1)
+    view = np.zeros((3, 2))
+    view[right, 0], view[up, 1] = signs[right], signs[up]
+    return view, (labels[right], labels[up], labels[2]), signs[2]
+
+
+def draw_map(axes: Axes, world: World, bottom: float, ceiling: float, view: FloatArray, radius: float) -> None:
+    """Bounds, obstacles (darker where they reach the heights from `bottom` to `ceiling`), halo."""
     from matplotlib.patches import Rectangle
 
     corners = world.walls @ view
     low, size = corners.min(axis=0), np.ptp(corners, axis=0)
     axes.add_patch(Rectangle((low[0], low[1]), size[0], size[1], fill=False, lw=1.2, color="black"))
-    bottom, ceiling = points[:, 2].min(), points[:, 2].max()
     _draw_voxels(axes, world, view, bottom - radius, ceiling + radius, radius)
     for layer in ("halo", "solid"):
         for solid in _solids(world):
@@ -122,13 +129,16 @@ def _draw_top(axes: Axes, world: World, points: FloatArray, view: FloatArray, ra
                 axes.add_patch(_outline(solid, 0.0, view, color=SOLID, alpha=0.9 if reached else 0.3, lw=0))
             elif radius > 0.0 and reached:
                 axes.add_patch(_outline(solid, radius, view, color=HALO, alpha=0.6, lw=0))
-    path = points @ view
-    axes.plot(*path.T, color=PATH, lw=2.2)
-    axes.plot(*path[0], "o", color=PATH, ms=8)
-    axes.plot(*path[-1], "*", color=PATH, ms=14)
     pad = 0.03 * float(size.max())
     axes.set(xlim=(low[0] - pad, low[0] + size[0] + pad), ylim=(low[1] - pad, low[1] + size[1] + pad))
     axes.set_aspect("equal")
+
+
+def draw_path(axes: Axes, path: FloatArray) -> None:
+    """A path (m, 2) on the page, a dot where it begins and a star where it ends."""
+    axes.plot(*path.T, color=PATH, lw=2.2)
+    axes.plot(*path[0], "o", color=PATH, ms=8)
+    axes.plot(*path[-1], "*", color=PATH, ms=14)
 
 
 def _mark_nearest(axes: Axes, world: World, point: FloatArray, view: FloatArray) -> None:

@@ -80,9 +80,16 @@ def plan(
     mission: MissionFile,
     seed: Seed = 1,
     plot: Annotated[Path | None, typer.Option("--plot", metavar="FILE.png", help="Draw the plan.")] = None,
+    compare: Annotated[
+        bool, typer.Option("--compare", help="Plan by every method, and set them side by side.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Plan every leg of a mission without flying it."""
+    if compare:
+        from companion.cli.compare import compare_methods
+
+        raise typer.Exit(compare_methods(mission, seed, plot, json))
     from companion.cli.plan import plan_mission
 
     raise typer.Exit(plan_mission(mission, seed, plot, json))

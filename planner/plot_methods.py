@@ -1,0 +1,105 @@
+"""One picture of what several methods make of the same legs: from above, height along the way, speed. For people."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from planner.limits import Limits
+from planner.plan import Plan
+from planner.plot import SAMPLES, draw_map, view_of
+from planner.worlds import World
+
+COLOURS = ("#1769aa", "#d35400", "#7d3c98", "#148f77", "#b7950b", "#c0392b", "#626567")
+"""One a method; the first is drawn wide and pale beneath the others, so that none hides another."""
+WIDTHS, ALPHAS = (5.0, 1.5), (0.55, 1.0)
+
+
+def save_comparison(
+    world: World,
+    plans: Mapping[str, Sequence[Plan]],
+    path: str | Path,
+    limits: Limits | None = None,
+    radius: float = 0.0,
+    names: tuple[str, str, str] = ("x", "y", "z"),
+) -> None:
+    """Write a PNG of every method's plans in one world.
+
+    Parameters
+    ----------
+    plans : the legs that each method found, in order; a method without any is only named. Dashed: not proved.
+    path, limits, radius, names : as `plot.save_plot`.
+
+    Raises
+    ------
+    OSError : the file cannot be written.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    view, labels, sign = view_of(names)
+    figure = Figure(figsize=(12.0, 7.2), dpi=130, layout="constrained")
+    FigureCanvasAgg(figure)
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.25, 1.0))
+    top = figure.add_subplot(grid[:, 0])
+    height, speed = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
+
+    heights = [plan.trajectory.control_points[:, 2] for legs in plans.values() for plan in legs]
+    bottom, ceiling = (min(h.min() for h in heights), max(h.max() for h in heights)) if heights else (0.0, 0.0)
+    draw_map(top, world, bottom, ceiling, view, radius)
+    for k, (method, legs) in enumerate(plans.items()):
+        rest = min(k, 1)
+        look: dict[str, Any] = {
+            "color": COLOURS[k % len(COLOURS)],
+            "lw": WIDTHS[rest],
+            "alpha": ALPHAS[rest],
+            "zorder": 3 + k,
+        }
+        gone = begun = 0.0
+        for i, plan in enumerate(legs):
+            style = "-" if plan.certified else (0, (4, 2))
+            label = _label(method, legs) if i == 0 else None
+            t = np.linspace(0.0, plan.trajectory.duration, SAMPLES)
+            points = plan.trajectory.position(t)
+            way = gone + np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+            v = np.linalg.norm(plan.trajectory.velocity(t), axis=1)
+            top.plot(*(points @ view).T, label=label, ls=style, **look)
+            height.plot(way, sign * points[:, 2], ls=style, **look)
+            speed.plot(begun + t, v, ls=style, **look)
+            gone, begun = way[-1], begun + plan.trajectory.duration
+        if not legs:
+            top.plot([], [], label=_label(method, legs), **look)
+    for plan in next((legs for legs in plans.values() if legs), ()):
+        ends = plan.trajectory.control_points[[0, -1]] @ view
+        top.plot(*ends[0], "o", color="black", ms=7, zorder=20)
+        top.plot(*ends[1], "*", color="black", ms=13, zorder=20)
+
+    handles, texts = top.get_legend_handles_labels()
+    figure.legend(handles, texts, loc="outside lower center", ncol=2, fontsize=9, frameon=False)
+    top.set(xlabel=f"{labels[0]} [m]", ylabel=f"{labels[1]} [m]")
+    top.set_title("from above (dashed: not proved clear)", loc="left", fontsize=10)
+    low, high = sorted(sign * world.walls[:, 2])
+    margin = 0.06 * (high - low)
+    for bound in (low, high):
+        height.axhline(bound, color="black", lw=1)
+    height.set(xlabel="way gone [m]", ylabel=f"{labels[2]} [m]", ylim=(low - margin, high + margin))
+    height.set_title("height along the way", loc="left", fontsize=10)
+    speed.set(xlabel="time [s]", ylabel="speed [m/s]")
+    speed.set_title("speed" + (", and its limit" if limits else ""), loc="left", fontsize=10)
+    if limits is not None:
+        speed.axhline(limits.speed, color="black", lw=1, ls="--")
+    for axes in (height, speed):
+        axes.set_xlim(left=0.0)
+        axes.grid(alpha=0.25)
+    figure.savefig(path)
+
+
+def _label(method: str, legs: Sequence[Plan]) -> str:
+    if not legs:
+        return f"{method}: no path found"
+    length, duration = sum(plan.length for plan in legs), sum(plan.trajectory.duration for plan in legs)
+    proved = "" if all(plan.certified for plan in legs) else ", not proved"
+    return f"{method}: {length:.2f} m, {duration:.2f} s{proved}"
