@@ -3,12 +3,13 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+PEERS := .peers
 PACKAGES := companion fakevehicle planner logs wire
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test check format bench pin clean
+.PHONY: help demo test check format bench bench-peers pin clean
 help:            ## show this
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
 	$(BIN)/companion demo
@@ -27,15 +28,23 @@ format: $(STAMP) ## rewrite the sources in the one format
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: $(STAMP)  ## benchmarks: figures and ratios, about six minutes
-	$(BIN)/python -m benchmarks
+bench: $(STAMP)  ## benchmarks: figures and ratios, about ten minutes
+	-$(MAKE) bench-peers
+	PYTHONPATH=$(PEERS) $(BIN)/python -m benchmarks
+
+bench-peers: $(PEERS)/.installed ## what benchmarks compare with, in a folder of its own, not in the environment
 
 pin: $(STAMP)    ## write constraints.txt from what is installed now
 	{ head -1 constraints.txt; $(BIN)/pip freeze --all --exclude-editable | grep -v '^pip==' ; } > constraints.tmp && mv constraints.tmp constraints.txt
 
 clean:           ## remove the environment and caches
-	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info
+	rm -rf $(VENV) $(PEERS) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info
 	find $(PACKAGES) tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# --no-deps: mealpy pins an old numpy, and needs of pandas only that it can be imported.
+$(PEERS)/.installed: $(STAMP)
+	$(BIN)/python -m pip install -q --no-deps --target $(PEERS) --upgrade mealpy==3.0.3 pandas python-dateutil six tzdata
+	@touch $@
 
 $(STAMP): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(None if v >= (3, 11) else f"companion needs Python 3.11 or newer, found {v[0]}.{v[1]}: make PYTHON=python3.11 ...")'

@@ -2,12 +2,21 @@
 
 import sys
 
-from benchmarks import bench_fields, bench_mazes, bench_planner, bench_search, bench_simulate, bench_timing
+from benchmarks import (
+    bench_fields,
+    bench_mazes,
+    bench_planner,
+    bench_rivals,
+    bench_search,
+    bench_simulate,
+    bench_timing,
+)
 
 
 def main() -> None:
     sys.argv = sys.argv[:1]
     bench_planner.main()
+    bench_rivals.main()
     bench_timing.main()
     bench_mazes.main()
     bench_fields.main()
