@@ -10,8 +10,9 @@ The way in is `plan.plan`; what it does is told there in one line. Underneath: `
 `distance` (what to miss), `cost` (what is good), `seeds`, `search`, `descent`, `guide` and `lattice` (how to find it),
 `enclosure` (why there is none), `families` (worlds to try it on), `certificate` and `limits` (how to prove it),
 `timing`, `finer`, `intervals` and `barrier` (how fast to fly it), `trajectory` (the result), `errors` (what can go
-wrong, by how much); `movers` and `among` (what moves), `replan`, `warm`, `timed` and `backup` (planning in flight).
-`plot` draws a plan; it is imported by its own name, since it brings matplotlib.
+wrong, by how much); `movers` and `among` (what moves), `replan`, `warm`, `timed` and `backup` (planning in flight);
+`baselines` (HAOAROA's rivals).
+`plot` draws a plan and `plot_methods` several; they are imported by their own names, since they bring matplotlib.
 
 Frame: any Cartesian one, left- or right-handed, as long as everything is given in it; cylinders stand along its z axis.
 Points are (3,), SI units throughout, time starts at 0 at the start of a trajectory. The walls of the map are solid: the
