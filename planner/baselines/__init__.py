@@ -4,7 +4,7 @@ Grid methods, on one grid of cells (`grid`) whose edges are all proved clear:
     astar     A* (`astar`), a polyline with a stop at every corner (`polyline`)
     jps       exact jump point search in space (`jps`), as long as A*'s, a polyline too
     bezier    a composite cubic Bezier curve, twice continuously differentiable, through A*'s pruned corners (`bezier`)
-Searches on HAOAROA's own cost, from its own seeds, with the budget of 20 candidates x 100 iterations (`field`):
+Searches on HAOAROA's own cost, from its own seeds, with the budget of 20 candidates x 100 iterations:
     lbsgf     gradient flow on control points, preconditioned by the inverse discrete Laplacian: our reading (`lbsgf`)
     aoa, roa  the parents alone, without gradient and without polish (`parents`)
 
