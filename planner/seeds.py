@@ -26,7 +26,8 @@ def plane_frame(start: FloatArray, goal: FloatArray) -> FloatArray:
     level = np.array([-e1[1], e1[0], 0.0])
     size = float(np.linalg.norm(level))
     e2 = level / size if size > 1e-6 else np.array([0.0, 1.0, 0.0])
-    e3 = np.cross(e1, e2)
+    (a, b, c), (d, e, f) = e1.tolist(), e2.tolist()
+    e3 = np.array([b * f - c * e, c * d - a * f, a * e - b * d])
     return np.array([e1, e2, e3 / np.linalg.norm(e3)])
 
 
@@ -69,11 +70,13 @@ def fan(
     middle = (start + goal) / 2
     longest = max(0.75 * float(np.linalg.norm(goal - start)), 1.0)
     sides = [(e, min(_room(middle, e, lower, upper), longest)) for e in (e2, -e2, e3, -e3)]
+    farthest = [e * room for e, room in sides]
     offsets = [np.zeros(3)]
     for k in range(SIDE):
-        offsets += [sides[j][0] * sides[j][1] * (k + 1) / SIDE for j in (0, 1)]
+        part = (k + 1) / SIDE
+        offsets += [farthest[0] * part, farthest[1] * part]
         if k in (SIDE // 2 - 1, SIDE - 1):
-            offsets += [sides[j][0] * sides[j][1] * (k + 1) / SIDE for j in (2, 3)]
+            offsets += [farthest[2] * part, farthest[3] * part]
     bow = np.sin(np.pi * s)
     bows = line + bow[:, None] * np.array(offsets[:count])[:, None, :]  # (bows, f, 3)
     modes = np.sin(np.pi * np.arange(1, MODES + 1)[:, None] * s)  # (MODES, f)

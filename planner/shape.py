@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planner import errors
-from planner.bspline import DEGREE, FloatArray, clamped_knots, evaluate
+from planner.bspline import DEGREE, FloatArray, bezier_pieces, clamped_knots
 from planner.certificate import certify, end_needed, needed
 from planner.cost import FIXED, SAMPLES, Grid, IntArray, SplineCost, build_grid
 from planner.descent import polish, search
@@ -261,13 +261,13 @@ class Search:
             if i == 0 or (np.abs(ranked[:i] - ranked[i]).max(axis=1) > cost.reach).all():
                 yield ranked[i].copy()
 
-    def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost, hopeless: int) -> list[Shape]:
+    def prove_all(self, seeds: Iterable[FloatArray], cost: SplineCost, hopeless: int) -> Iterator[Shape]:
         """Polish seeds, most promising first; what can be proved, best first. Stop after ELITES once something is.
 
         A curve that leads right through a solid is given up: weighing obstacles more pushes it from both sides. When
         the first `hopeless` are such, so are the rest.
         """
-        found: list[Shape] = []
+        found: list[tuple[float, FloatArray]] = []
         through = 0
         for k, seed in enumerate(seeds):
             if (k >= ELITES and found) or (k == through == hopeless):
@@ -280,14 +280,15 @@ class Search:
                 x = self.inside(cost, x)
                 if self.proved(cost, x):
                     self.effort.certified += 1
-                    found.append(self.shape_of(cost, x))
+                    found.append((cost.energy(x), x))
                     break
-                inside = self.least_distance(cost.control_points(x), 4 * cost.n) < 0.0
+                inside = self.least_distance(cost.control_points(x), 4) < 0.0
                 if inside or factor == STIFFER[-1]:
                     self.refused.append(cost.control_points(x))
                     through += inside
                     break
-        return sorted(found, key=lambda shape: shape.value)
+        for _, x in sorted(found, key=lambda pair: pair[0]):
+            yield self.shape_of(cost, x)
 
     def follow(self, way: Guide, how: Try, legs: Sequence[float] | None = None) -> list[tuple[float, Shape]]:
         """Polish the curve along a way, obstacles at their stiffest first, so that it stays on the way's side of them.
@@ -334,13 +335,15 @@ class Search:
         )
 
     def least_distance(self, points: FloatArray, count: int) -> float:
-        """Of `count` samples of a curve to solids and walls [m]."""
-        samples = evaluate(points, clamped_knots(len(points)), np.linspace(0.0, 1.0, count))
+        """Of `count` samples a span of a curve to solids and walls [m]."""
+        s = ((np.arange(count) + 0.5) / count)[:, None]
+        bernstein = np.concatenate([(1 - s) ** 3, 3 * s * (1 - s) ** 2, 3 * s**2 * (1 - s), s**3], axis=1)
+        samples = (bernstein @ bezier_pieces(points, clamped_knots(len(points)))).reshape(-1, 3)
         return float(min(self.world.distance(samples).min(), self.world.wall_distance(samples).min()))
 
     def shortfall(self) -> float:
         """By how much the best of the unproved curves misses the radius on samples [m], for the error."""
-        least = [self.least_distance(points, 20 * len(points)) for points in self.refused]
+        least = [self.least_distance(points, 20) for points in self.refused]
         return max(self.radius - max(least), 0.0) if least else math.inf
 
 

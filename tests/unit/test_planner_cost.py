@@ -124,3 +124,9 @@ def test_too_few_control_points_and_no_reach_are_refused() -> None:
         SplineCost(WORLD, START, GOAL, 6, LIMITS, 0.4)
     with pytest.raises(ValueError, match="reach"):
         SplineCost(WORLD, START, GOAL, 16, LIMITS, 0.0)
+
+
+def test_the_quick_energy_is_stretch_and_smoothness_together() -> None:
+    cost = SplineCost(World(((0, 0, 0), (20, 20, 4))), np.array([1, 2, 1.0]), np.array([9, 8, 2.0]), 16, LIMITS, 0.4)
+    x = np.random.default_rng(0).uniform(0.5, 3.5, cost.size)
+    assert cost.energy(x) == pytest.approx(cost.stretch(x) + cost.smoothness(x), rel=1e-12)
