@@ -12,13 +12,14 @@ then. Everything is counted, nothing timed: same inputs, same decisions.
 """
 
 import enum
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from planner.backup import escape
+from planner.backup import dash, escape
 from planner.bspline import FloatArray
 from planner.certificate import end_needed, needed
 from planner.errors import GoalInCollision, GoalOutOfBounds, PlannerError
@@ -301,7 +302,8 @@ class Replanner:
             after = m.switch + self.settings.period_s
             s = flight.trajectory.state(after - flight.start_s)
             state = np.array([s.position, s.velocity, s.acceleration])
-            for found, _ in self._stops(m.ask, flight, state, after):
+            stops = itertools.chain(self._straight(m.ask, state, after), self._stops(m.ask, flight, state, after))
+            for found, _ in stops:
                 if found.clear:
                     backup = Flight(Trajectory(found.points, found.knots), after, to_goal=False)
                     break
@@ -400,6 +402,14 @@ class Replanner:
         self._route, self._route_at = trajectory, 0.0
         self._changed = False
         return None
+
+    def _straight(self, ask: Ask, state: FloatArray, begin: float) -> Iterator[tuple[Found, str]]:
+        """The quickest stop, straight on: the cheapest to find and to prove."""
+        points, knots = dash(state, _STILL, 0, self._limits)
+        if len(points):
+            free, within, passed, distance, mover, when = judge(ask, points, knots, 0.0, begin, self.settings.horizon_s)
+            still = free and within
+            yield Found(points, knots, still, still and passed, distance, mover, when, 0), "straight stop"
 
     def _stops(
         self, ask: Ask, flight: Flight, state: FloatArray, begin: float, enough: float = 0.0
