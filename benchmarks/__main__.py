@@ -3,9 +3,11 @@
 import sys
 
 from benchmarks import (
+    bench_certificates,
     bench_fields,
     bench_mazes,
     bench_planner,
+    bench_replan,
     bench_rivals,
     bench_search,
     bench_simulate,
@@ -18,6 +20,8 @@ def main() -> None:
     bench_planner.main()
     bench_rivals.main()
     bench_timing.main()
+    bench_certificates.main()
+    bench_replan.main()
     bench_mazes.main()
     bench_fields.main()
     bench_search.main()

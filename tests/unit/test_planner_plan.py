@@ -306,7 +306,7 @@ def test_a_closed_room_is_proved_closed() -> None:
 
 
 def test_a_room_whose_door_is_narrower_than_the_search_graphs_cells_is_given_up_not_called_closed() -> None:
-    low, high = 10.0 - RADIUS - 0.005, 10.0 + RADIUS + 0.005
+    low, high = 10.0 - RADIUS - 0.0005, 10.0 + RADIUS + 0.0005
     door = [Box((9, 0, 0), (10, low, 4)), Box((9, high, 0), (10, 20, 4))]
     with pytest.raises(planner.NoPathFound, match=r"gave up after \d+ curves") as caught:
         plan(World(BOUNDS, door), (1.0, 5.0, 1.5), (19.0, 15.0, 1.5), LIMITS, RADIUS)
