@@ -7,7 +7,7 @@ PEERS := .peers
 PACKAGES := companion fakevehicle planner logs wire
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test check format bench bench-peers pin clean
+.PHONY: help demo test lint check format bench bench-peers pin clean
 help:            ## show this
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
@@ -17,11 +17,13 @@ demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, re
 test: $(STAMP)   ## every test
 	$(BIN)/python -m pytest -q
 
-check: $(STAMP)  ## format, lint, types, import rules, fast tests
+lint: $(STAMP)   ## format, lint, types, import rules
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+check: lint      ## the same, and the fast tests
 	$(BIN)/python -m pytest -q -m "not udp and not slow"
 
 format: $(STAMP) ## rewrite the sources in the one format
