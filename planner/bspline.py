@@ -1,4 +1,4 @@
-"""Clamped B-splines: knots, values, derivatives, hulls, length.
+"""Clamped B-splines: knots, values, derivatives, hulls.
 
 The paper's Eq. 21 is de Boor's recursion, and Eq. 35 the curve it spans; both are printed with slips, so what is used
 is (Piegl & Tiller, The NURBS Book, 2nd ed., ch. 2 and 3):
@@ -20,7 +20,6 @@ from planner.jit import kernel
 FloatArray = NDArray[np.float64]
 
 DEGREE = 3
-_GAUSS = np.polynomial.legendre.leggauss(12)
 
 
 def clamped_knots(n: int, duration: float = 1.0, degree: int = DEGREE) -> FloatArray:
@@ -255,16 +254,3 @@ def span_hulls(control_points: FloatArray, degree: int = DEGREE) -> tuple[FloatA
     centres = windows.mean(axis=2)
     radii = np.sqrt(((windows - centres[:, :, None]) ** 2).sum(axis=1)).max(axis=1)
     return centres, radii
-
-
-def arc_length(control_points: FloatArray, knots: FloatArray) -> float:
-    """Length of a cubic spline [m]: the integral of |C'| (Eq. 37, its norm restored).
-
-    Gauss-Legendre with 12 nodes a span. Exact for straight pieces; elsewhere the error falls faster than any power of
-    the span, and is far below 1e-6 m for the curves planned here.
-    """
-    nodes, weights = _GAUSS
-    breaks = knots[DEGREE:-DEGREE]
-    half = (breaks[1:] - breaks[:-1])[:, None] / 2
-    velocity = evaluate(control_points, knots, (breaks[:-1, None] + half * (1 + nodes)).ravel(), derivative=1)
-    return float(((half * weights).ravel() * np.sqrt((velocity**2).sum(axis=1))).sum())

@@ -276,6 +276,6 @@ def _arrays(
                     found[name] = np.lib.format.read_array(member, allow_pickle=False)
     except OSError as error:
         raise WorldFileError(file, "file", error.strerror or str(error), "a file that can be read") from error
-    except (zipfile.BadZipFile, zlib.error, ValueError, EOFError, NotImplementedError, RuntimeError) as error:
+    except (zipfile.BadZipFile, zlib.error, ValueError, EOFError, RuntimeError) as error:  # Runtime: encrypted
         raise WorldFileError(file, "file", " ".join(str(error).split())[:120], "an .npz that is whole") from error
     return found

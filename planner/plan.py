@@ -32,6 +32,7 @@ from planner.timing import Motion, timings, within
 from planner.trajectory import Trajectory
 from planner.worlds import KINDS, Box, Point, VoxelGrid, World, as_point
 
+Vector = Sequence[float] | FloatArray
 Finder = Callable[[Query, Effort], Iterator[Shape]]
 """A method: hands over shapes, most promising first, and counts what they took. The first whose timed form is proved
 becomes the plan, else the last; a method that wants no unproved plan raises NoPathFound in the end."""
@@ -54,8 +55,6 @@ CURVES = 4
 """Looked at for each pace."""
 HAIR = 1e-11
 """Of a limit, what a state at it is short of, so that rounding does not put it beyond."""
-
-
 ALTERNATIVES = 6
 """Curves that are tried among movers."""
 
@@ -93,17 +92,17 @@ class Plan:
 
 def plan(
     world: World,
-    start: Sequence[float] | FloatArray,
-    goal: Sequence[float] | FloatArray,
+    start: Vector,
+    goal: Vector,
     limits: Limits,
     radius: float,
     seed: int = 0,
     method: str = "haoaroa",
     *,
-    start_velocity: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
-    start_acceleration: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
-    goal_velocity: Sequence[float] | FloatArray = (0.0, 0.0, 0.0),
-    via: Sequence[Sequence[float] | FloatArray] | FloatArray = (),
+    start_velocity: Vector = (0.0, 0.0, 0.0),
+    start_acceleration: Vector = (0.0, 0.0, 0.0),
+    goal_velocity: Vector = (0.0, 0.0, 0.0),
+    via: Sequence[Vector] | FloatArray = (),
     movers: Sequence[Mover] = (),
 ) -> Plan:
     """Plan from `start` to `goal`, from rest to rest unless told otherwise.
@@ -139,32 +138,7 @@ def plan(
         raise ValueError(f"method: expected one of {', '.join(METHODS)}, found {method!r}")
     if not (np.isfinite(radius) and radius >= 0.0):
         raise ValueError(f"radius: expected a finite number of at least 0 m, found {radius}")
-    a, b = as_point("start", start), as_point("goal", goal)
-    check_endpoint(world, a, radius, errors.StartInCollision, errors.StartOutOfBounds)
-    check_endpoint(world, b, radius, errors.GoalInCollision, errors.GoalOutOfBounds)
-    through = [as_point(f"via point {index}", point) for index, point in enumerate(via)]
-    if len(through) > MOST_VIA:
-        raise ValueError(f"via: expected at most {MOST_VIA} points, found {len(through)}")
-    for index, point in enumerate(through):
-        check_endpoint(
-            world,
-            point,
-            radius,
-            partial(errors.ViaInCollision, index=index),
-            partial(errors.ViaOutOfBounds, index=index),
-        )
-    query = Query(
-        world,
-        np.array(a),
-        np.array(b),
-        limits,
-        float(radius),
-        seed,
-        start_velocity=_state("start_velocity", start_velocity, limits.speed),
-        start_acceleration=_state("start_acceleration", start_acceleration, limits.acceleration),
-        goal_velocity=_state("goal_velocity", goal_velocity, limits.speed),
-        via=np.array(through).reshape(-1, 3),
-    )
+    query = _asked(world, start, goal, limits, radius, seed, start_velocity, start_acceleration, goal_velocity, via)
     crowd = table(movers)
     effort, curves = Effort(), 0
     blocked: list[MoverProof] = []
@@ -203,6 +177,47 @@ def plan(
     raise refusal
 
 
+def _asked(
+    world: World,
+    start: Vector,
+    goal: Vector,
+    limits: Limits,
+    radius: float,
+    seed: int,
+    start_velocity: Vector,
+    start_acceleration: Vector,
+    goal_velocity: Vector,
+    via: Sequence[Vector] | FloatArray,
+) -> Query:
+    """The arguments of `plan` in arrays, every end and via point and every state checked; raises as `plan`."""
+    a, b = as_point("start", start), as_point("goal", goal)
+    check_endpoint(world, a, radius, errors.StartInCollision, errors.StartOutOfBounds)
+    check_endpoint(world, b, radius, errors.GoalInCollision, errors.GoalOutOfBounds)
+    through = [as_point(f"via point {index}", point) for index, point in enumerate(via)]
+    if len(through) > MOST_VIA:
+        raise ValueError(f"via: expected at most {MOST_VIA} points, found {len(through)}")
+    for index, point in enumerate(through):
+        check_endpoint(
+            world,
+            point,
+            radius,
+            partial(errors.ViaInCollision, index=index),
+            partial(errors.ViaOutOfBounds, index=index),
+        )
+    return Query(
+        world,
+        np.array(a),
+        np.array(b),
+        limits,
+        float(radius),
+        seed,
+        start_velocity=_state("start_velocity", start_velocity, limits.speed),
+        start_acceleration=_state("start_acceleration", start_acceleration, limits.acceleration),
+        goal_velocity=_state("goal_velocity", goal_velocity, limits.speed),
+        via=np.array(through).reshape(-1, 3),
+    )
+
+
 def _passing(made: Plan, found: Passage, effort: Effort, watch: Stopwatch, radius: float) -> Plan:
     """The plan with the trajectory that misses the movers."""
     measures = found.trajectory.measures()
@@ -228,7 +243,7 @@ def _blocked(proofs: list[MoverProof], effort: Effort, query: Query) -> errors.B
     return errors.BlockedByMovers(len(proofs), effort.evaluations, first.mover, first.time, query.radius)
 
 
-def _state(name: str, value: Sequence[float] | FloatArray, limit: float) -> FloatArray:
+def _state(name: str, value: Vector, limit: float) -> FloatArray:
     """A velocity or acceleration (3,) within its limit; one at the limit a hair below, which a proof needs."""
     vector = np.array(as_point(name, value))
     norm = float(np.linalg.norm(vector))

@@ -9,7 +9,6 @@ from scipy.interpolate import BSpline
 
 from planner.bspline import (
     DEGREE,
-    arc_length,
     basis,
     bezier_pieces,
     clamped_knots,
@@ -21,6 +20,7 @@ from planner.bspline import (
 )
 from planner.errors import KnotError
 from planner.limits import derivative_bounds
+from planner.trajectory import Trajectory
 
 
 @pytest.fixture
@@ -106,14 +106,14 @@ def test_the_gram_matrix_integrates_the_square_of_a_derivative(curve: tuple[np.n
 
 def test_a_straight_line_is_as_long_as_its_ends_are_apart() -> None:
     points = np.linspace(0, 1, 8)[:, None] * np.array([3.0, 4.0, 12.0])
-    assert arc_length(points, clamped_knots(8)) == pytest.approx(13.0, rel=1e-12)
+    assert Trajectory(points, clamped_knots(8)).length == pytest.approx(13.0, rel=1e-12)
 
 
 def test_the_length_is_the_integral_of_the_speed(curve: tuple[np.ndarray, np.ndarray]) -> None:
     points, knots = curve
     velocity = BSpline(knots, points, 3).derivative()
     truth = sum(quad(lambda u: np.linalg.norm(velocity(u)), a, b, limit=200)[0] for a, b in pairwise(knots[3:-3]))
-    assert arc_length(points, knots) == pytest.approx(truth, rel=1e-4)
+    assert Trajectory(points, knots).length == pytest.approx(truth, rel=1e-4)
 
 
 @pytest.mark.parametrize(("n", "duration"), [(3, 1.0), (8, 0.0), (8, float("inf"))])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from planner import Box, Cylinder, Limits, Sphere, World
+from planner import Box, Cylinder, Limits, Sphere, Trajectory, World
 from planner.bspline import clamped_knots
 from planner.cost import SAMPLES, SplineCost, hinge
 
@@ -80,12 +80,10 @@ def test_the_stretch_is_least_for_the_straight_line_run_evenly() -> None:
 
 
 def test_length_squared_over_the_way_never_exceeds_the_stretch() -> None:
-    from planner.bspline import arc_length
-
     cost = SplineCost(WORLD, START, GOAL, 16, LIMITS, 0.45)
     for seed in range(5):
         x = random_curve(cost, seed)
-        assert arc_length(cost.control_points(x), clamped_knots(16)) ** 2 / 18.0 <= cost.stretch(x)
+        assert Trajectory(cost.control_points(x), clamped_knots(16)).length ** 2 / 18.0 <= cost.stretch(x)
 
 
 def test_the_hinge_joins_its_pieces_twice_continuously_differentiable() -> None:
