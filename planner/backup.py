@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from planner.bspline import FloatArray
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 from planner.warm import Ask, Found, judge
 
 STEP = 0.05
@@ -28,7 +28,7 @@ MOST = 80
 """Most STEPs of t_2: what takes longer to stop is not stopped here."""
 
 
-@kernel
+@leaf
 def _toward(a: FloatArray, target: FloatArray, most: float) -> None:
     """Move a (3,) toward the target by `most` at most."""
     d = math.sqrt((target[0] - a[0]) ** 2 + (target[1] - a[1]) ** 2 + (target[2] - a[2]) ** 2)

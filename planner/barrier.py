@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from planner.bspline import FloatArray
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 
 PAD = 2
 """Intervals of zero before the first and after the last, so that the formulas hold at the ends as they stand."""
@@ -22,7 +22,7 @@ BAND = 5
 """Diagonals kept of the symmetric Hessian: row i holds its columns i .. i + 4."""
 
 
-@kernel
+@leaf
 def derivatives(points: FloatArray, e: FloatArray, V: FloatArray, A: FloatArray, J: FloatArray) -> None:
     """Write the control points of velocity, acceleration and jerk for padded intervals e (m + 4,) [s]."""
     m = e.size - 2 * PAD
@@ -40,7 +40,7 @@ def derivatives(points: FloatArray, e: FloatArray, V: FloatArray, A: FloatArray,
             J[i, k] = (A[i + 1, k] - A[i, k]) * s
 
 
-@kernel
+@leaf
 def _log_room(X: FloatArray, first: int, end: int, squared: float) -> float:
     """sum log(1 - |X_i|^2 / limit^2), -inf when a limit is reached."""
     total = 0.0
@@ -52,7 +52,7 @@ def _log_room(X: FloatArray, first: int, end: int, squared: float) -> float:
     return total
 
 
-@kernel
+@leaf
 def barrier(
     e: FloatArray,
     rate: FloatArray,

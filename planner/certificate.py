@@ -30,7 +30,7 @@ import numpy as np
 from planner.bspline import FloatArray, bezier_pieces
 from planner.distance import NOTCHED, PRISM, Scene, plain_distance, prism_distance
 from planner.field import NEAR, Field, field_bound, field_distance
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 from planner.worlds import World
 
 MARGIN = 1e-11
@@ -53,7 +53,7 @@ class Certificate:
     pieces: int
 
 
-@kernel
+@leaf
 def _notched_low(solids: FloatArray, edges: FloatArray, o: int, b: FloatArray, c: FloatArray) -> float:
     """The third bound for solid o on a piece b (4, 3) with middle c (3,); -inf where it says nothing."""
     least, most = np.inf, 0.0
@@ -64,7 +64,7 @@ def _notched_low(solids: FloatArray, edges: FloatArray, o: int, b: FloatArray, c
     return math.sqrt(least) if least > CANCEL**2 * most else -np.inf
 
 
-@kernel
+@leaf
 def _field_low(field: Field, b: FloatArray, c: FloatArray, enough: float, exact: float) -> float:
     """The third bound for a field's voxels; distances below `exact` are looked up where they have to be."""
     least, most = np.inf, 0.0
@@ -76,7 +76,7 @@ def _field_low(field: Field, b: FloatArray, c: FloatArray, enough: float, exact:
     return math.sqrt(least) if least > CANCEL**2 * most else -np.inf
 
 
-@kernel
+@leaf
 def _square(b: FloatArray, k: int, c: FloatArray) -> float:
     """|b_k - c|^2."""
     x, y, z = b[k, 0] - c[0], b[k, 1] - c[1], b[k, 2] - c[2]

@@ -23,7 +23,8 @@ Where this leaves the printed equations:
   inside c = radius + buffer only; walls of the map are obstacles with d = distance to the wall.
 
 The integral of h is a midpoint rule with SAMPLES points a span. A grid of cells lists the solids within c of each cell,
-so a sample looks at those alone. The voxels of a field count as one solid, with the interpolated distance.
+so a sample looks at those alone, and a span about whose hull no cell lists any at none. The voxels of a field count as
+one solid, with the interpolated distance.
 """
 
 import math
@@ -36,7 +37,7 @@ from numpy.typing import NDArray
 from planner.bspline import DEGREE, FloatArray, basis, clamped_knots, gram_matrix
 from planner.distance import BOX, PRISM, SPHERE, Scene, plain_distance, prism_distance
 from planner.field import interpolate
-from planner.jit import kernel
+from planner.jit import leaf
 from planner.limits import Limits
 from planner.worlds import World
 
@@ -62,6 +63,7 @@ class Grid(NamedTuple):
     shape: IntArray  # (3,)
     starts: IntArray  # (cells + 1,)
     items: IntArray
+    sums: IntArray  # (nx + 1, ny + 1, nz + 1): sums[i, j, k] items are listed in the cells [0, i) x [0, j) x [0, k)
 
 
 class Problem(NamedTuple):
@@ -75,7 +77,6 @@ class Problem(NamedTuple):
     basis: FloatArray  # (spans, 4, SAMPLES)
     points: FloatArray  # (n, 3) scratch; its ends hold the fixed control points
     slopes: FloatArray  # (n, 3) scratch
-    sample: FloatArray  # (3, SAMPLES) scratch
     scene: Scene
     walls: FloatArray  # (2, 3)
     grid: Grid
@@ -98,7 +99,7 @@ class CostTerms:
         return self.stretch + self.smoothness + self.obstacle
 
 
-@kernel
+@leaf
 def _cell_range(scene: Scene, k: int, axis: int, reach: float, grid: Grid) -> tuple[int, int]:
     """First and one past the last cell along an axis that solid k comes within reach of."""
     solids = scene.solids
@@ -118,7 +119,7 @@ def _cell_range(scene: Scene, k: int, axis: int, reach: float, grid: Grid) -> tu
     return min(max(low, 0), last), min(max(high, 0), last)
 
 
-@kernel
+@leaf
 def fill_grid(scene: Scene, reach: float, grid: Grid, counting: bool) -> None:
     """Two passes over the same cells: count into `starts` (shifted by one), then write into `items`."""
     solids, ny, nz = scene.solids, grid.shape[1], grid.shape[2]
@@ -137,21 +138,36 @@ def fill_grid(scene: Scene, reach: float, grid: Grid, counting: bool) -> None:
                         grid.starts[cell] += 1
 
 
+@leaf
+def sum_grid(starts: IntArray, sums: IntArray) -> None:
+    """Write `sums` from the filled grid's `starts`: the numbers of items, summed along all three axes."""
+    cell = 0
+    for ix in range(1, sums.shape[0]):
+        for iy in range(1, sums.shape[1]):
+            column = starts[cell]
+            for iz in range(1, sums.shape[2]):
+                cell += 1
+                beside = sums[ix - 1, iy, iz] + sums[ix, iy - 1, iz] - sums[ix - 1, iy - 1, iz]
+                sums[ix, iy, iz] = beside + starts[cell] - column
+
+
 def build_grid(world: World, reach: float) -> Grid:
     """The grid whose cells list every solid within `reach` [m] of any of their points."""
     extent = world.walls[1] - world.walls[0]
     per_metre = min(FINEST, float(MOST_CELLS / np.prod(np.maximum(extent, 1.0))) ** (1 / 3))
     shape = np.maximum(np.ceil(extent * per_metre), 1).astype(np.int64)
     starts = np.zeros(int(np.prod(shape)) + 1, dtype=np.int64)
-    empty = Grid(world.walls[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64))
+    sums = np.zeros(shape + 1, dtype=np.int64)
+    empty = Grid(world.walls[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64), sums)
     fill_grid(world.scene, reach, empty, True)
     ends = np.cumsum(starts)
+    sum_grid(ends, sums)
     grid = empty._replace(starts=ends.copy(), items=np.empty(int(ends[-1]), dtype=np.int64))
     fill_grid(world.scene, reach, grid, False)
     return grid._replace(starts=ends)  # the second pass moved each start to its end
 
 
-@kernel
+@leaf
 def hinge(e: float, c: float) -> tuple[float, float]:
     """(h, dh/de) of the corrected Eq. 39; e > 0."""
     if e <= c:
@@ -159,7 +175,27 @@ def hinge(e: float, c: float) -> tuple[float, float]:
     return 3.0 * c * e * e - 3.0 * c * c * e + c * c * c, 6.0 * c * e - 3.0 * c * c
 
 
-@kernel
+@leaf
+def _between(v: float, low: float, high: float, c: float) -> tuple[float, float]:
+    """(h, dh/dv) of the two walls across one axis, which are felt below `low` and above `high`."""
+    h, slope = 0.0, 0.0
+    if v < low:
+        h, slope = hinge(low - v, c)
+        slope = -slope
+    if v > high:
+        beyond, dh = hinge(v - high, c)
+        h += beyond
+        slope += dh
+    return h, slope
+
+
+@leaf
+def _cell(v: float, origin: float, per_metre: float, count: int) -> int:
+    """Number of the cell along one axis; the nearest when there is none."""
+    return min(max(int((v - origin) * per_metre), 0), count - 1)
+
+
+@leaf
 def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Stretch and smoothness of the free control points x (3 f,), gradient written (3 f,)."""
     f, y = p.energy.shape[0], p.relative
@@ -180,21 +216,17 @@ def add_energy(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     return cost
 
 
-@kernel
+@leaf
 def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """Obstacle term of the free control points x (3 f,), gradient added to (3 f,)."""
     # Everything by its own name: a field of a field, or a row of an array, costs more than the arithmetic on it.
-    f, c, b, sample, points, slopes = p.energy.shape[0], p.reach, p.basis, p.sample, p.points, p.slopes
-    solids, edges, walls, starts, items, per_metre = (
-        p.scene.solids,
-        p.scene.edges,
-        p.walls,
-        p.grid.starts,
-        p.grid.items,
-        p.grid.per_metre,
-    )
+    f, c, b, points, slopes = p.energy.shape[0], p.reach, p.basis, p.points, p.slopes
+    solids, edges = p.scene.solids, p.scene.edges
+    starts, items, sums, per_metre = p.grid.starts, p.grid.items, p.grid.sums, p.grid.per_metre
     nx, ny, nz = p.grid.shape[0], p.grid.shape[1], p.grid.shape[2]
     x0, y0, z0 = p.grid.origin[0], p.grid.origin[1], p.grid.origin[2]
+    low_x, low_y, low_z = p.walls[0, 0] + c, p.walls[0, 1] + c, p.walls[0, 2] + c
+    high_x, high_y, high_z = p.walls[1, 0] - c, p.walls[1, 1] - c, p.walls[1, 2] - c
     distances, resolution, corner = p.scene.field.distances, p.scene.field.resolution, p.scene.field.origin
     vx, vy, vz, voxels = corner[0], corner[1], corner[2], distances.size > 0
     for i in range(f):
@@ -203,18 +235,26 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     slopes[:, :] = 0.0
     total = 0.0
     for span in range(b.shape[0]):
-        near_wall = False
-        for a in range(3):
-            p0, p1, p2, p3 = points[span, a], points[span + 1, a], points[span + 2, a], points[span + 3, a]
-            for s in range(SAMPLES):
-                sample[a, s] = b[span, 0, s] * p0 + b[span, 1, s] * p1 + b[span, 2, s] * p2 + b[span, 3, s] * p3
-            if min(min(p0, p1), min(p2, p3)) < walls[0, a] + c or max(max(p0, p1), max(p2, p3)) > walls[1, a] - c:
-                near_wall = True  # a hull clear of the walls is a span clear of them
+        ax, bx, cx, ex = points[span, 0], points[span + 1, 0], points[span + 2, 0], points[span + 3, 0]
+        ay, by, cy, ey = points[span, 1], points[span + 1, 1], points[span + 2, 1], points[span + 3, 1]
+        az, bz, cz, ez = points[span, 2], points[span + 1, 2], points[span + 2, 2], points[span + 3, 2]
+        x1, x2 = min(min(ax, bx), min(cx, ex)), max(max(ax, bx), max(cx, ex))
+        y1, y2 = min(min(ay, by), min(cy, ey)), max(max(ay, by), max(cy, ey))
+        z1, z2 = min(min(az, bz), min(cz, ez)), max(max(az, bz), max(cz, ez))
+        near_wall = x1 < low_x or y1 < low_y or z1 < low_z or x2 > high_x or y2 > high_y or z2 > high_z
+        if not near_wall and not voxels:  # a hull clear of everything is a span clear of it
+            i1, i2 = _cell(x1, x0, per_metre, nx), _cell(x2, x0, per_metre, nx) + 1
+            j1, j2 = _cell(y1, y0, per_metre, ny), _cell(y2, y0, per_metre, ny) + 1
+            k1, k2 = _cell(z1, z0, per_metre, nz), _cell(z2, z0, per_metre, nz) + 1
+            below = sums[i2, j2, k1] - sums[i1, j2, k1] - sums[i2, j1, k1] + sums[i1, j1, k1]
+            if sums[i2, j2, k2] - sums[i1, j2, k2] - sums[i2, j1, k2] + sums[i1, j1, k2] == below:
+                continue
         for s in range(SAMPLES):
-            px, py, pz = sample[0, s], sample[1, s], sample[2, s]
-            ix = min(max(int((px - x0) * per_metre), 0), nx - 1)
-            iy = min(max(int((py - y0) * per_metre), 0), ny - 1)
-            iz = min(max(int((pz - z0) * per_metre), 0), nz - 1)
+            w0, w1, w2, w3 = b[span, 0, s], b[span, 1, s], b[span, 2, s], b[span, 3, s]
+            px = w0 * ax + w1 * bx + w2 * cx + w3 * ex
+            py = w0 * ay + w1 * by + w2 * cy + w3 * ey
+            pz = w0 * az + w1 * bz + w2 * cz + w3 * ez
+            ix, iy, iz = _cell(px, x0, per_metre, nx), _cell(py, y0, per_metre, ny), _cell(pz, z0, per_metre, nz)
             cell = (ix * ny + iy) * nz + iz
             first, end = starts[cell], starts[cell + 1]
             if first == end and not near_wall and not voxels:
@@ -222,7 +262,14 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
             fx, fy, fz = 0.0, 0.0, 0.0
             for item in range(first, end):
                 k = items[item]
-                if solids[k, 0] < PRISM:
+                kind = solids[k, 0]
+                if kind < PRISM:
+                    dx, dy = px - solids[k, 1], py - solids[k, 2]
+                    if kind == BOX:  # most are out of reach, which takes less to see than the distance
+                        if abs(dx) >= solids[k, 4] + c or abs(dy) >= solids[k, 5] + c:
+                            continue
+                    elif dx * dx + dy * dy >= (solids[k, 4] + c) ** 2:
+                        continue
                     d, gx, gy, gz = plain_distance(solids, k, px, py, pz)
                 else:
                     d, gx, gy, gz = prism_distance(solids, edges, k, px, py, pz)
@@ -241,23 +288,13 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
                     fy -= dh * gy
                     fz -= dh * gz
             if near_wall:
-                for a in range(3):
-                    v = sample[a, s]
-                    push = 0.0
-                    if v < walls[0, a] + c:
-                        h, dh = hinge(walls[0, a] + c - v, c)
-                        total += h
-                        push -= dh
-                    if v > walls[1, a] - c:
-                        h, dh = hinge(v - walls[1, a] + c, c)
-                        total += h
-                        push += dh
-                    if a == 0:
-                        fx += push
-                    elif a == 1:
-                        fy += push
-                    else:
-                        fz += push
+                hx, push_x = _between(px, low_x, high_x, c)
+                hy, push_y = _between(py, low_y, high_y, c)
+                hz, push_z = _between(pz, low_z, high_z, c)
+                total += hx + hy + hz
+                fx += push_x
+                fy += push_y
+                fz += push_z
             for q in range(4):
                 slopes[span + q, 0] += b[span, q, s] * fx
                 slopes[span + q, 1] += b[span, q, s] * fy
@@ -268,7 +305,7 @@ def add_obstacles(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     return p.scale * total
 
 
-@kernel
+@leaf
 def snap(x: FloatArray, p: Problem) -> None:
     """Move the control points that via points determine: even knots give C(u_k) = (P_{i-1} + 4 P_i + P_{i+1})/6."""
     f = p.energy.shape[0]
@@ -280,7 +317,7 @@ def snap(x: FloatArray, p: Problem) -> None:
             x[3 * i + a] = 1.5 * p.via[k, a] - 0.25 * (before + after)
 
 
-@kernel
+@leaf
 def cost_gradient(x: FloatArray, gradient: FloatArray, p: Problem) -> float:
     """J(x) [m] with its gradient [1] written into `gradient`; x (3 f,) are the free control points, row after row.
 
@@ -367,7 +404,6 @@ class SplineCost:
             basis=shape.basis,
             points=points,
             slopes=np.zeros((n, 3)),
-            sample=np.zeros((3, SAMPLES)),
             scene=world.scene,
             walls=world.walls,
             grid=build_grid(world, reach) if grid is None else grid,

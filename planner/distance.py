@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.field import CLOSE, NO_FIELD, Field, field_distance, interpolate
-from planner.jit import kernel
+from planner.jit import leaf
 from planner.prism import EDGE, polygon_distance
 
 FloatArray = NDArray[np.float64]
@@ -38,7 +38,7 @@ class Scene(NamedTuple):
     field: Field = NO_FIELD  # of voxels and point clouds
 
 
-@kernel
+@leaf
 def plain_distance(solids: FloatArray, k: int, x: float, y: float, z: float) -> tuple[float, float, float, float]:
     """`solid_distance` for kinds before PRISM.
 
@@ -74,7 +74,7 @@ def plain_distance(solids: FloatArray, k: int, x: float, y: float, z: float) -> 
     return -solids[k, 4], 1.0, 0.0, 0.0
 
 
-@kernel
+@leaf
 def prism_distance(
     solids: FloatArray, edges: FloatArray, k: int, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
@@ -90,7 +90,7 @@ def prism_distance(
     return qz, 0.0, 0.0, sz
 
 
-@kernel
+@leaf
 def solid_distance(
     solids: FloatArray, edges: FloatArray, k: int, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
@@ -103,7 +103,7 @@ def solid_distance(
     return prism_distance(solids, edges, k, x, y, z)
 
 
-@kernel
+@leaf
 def _nearest_row(solids: FloatArray, edges: FloatArray, x: float, y: float, z: float) -> tuple[float, int]:
     """(d, row) of the nearest solid; (inf, -1) when there is none."""
     least, index = np.inf, -1
@@ -117,7 +117,7 @@ def _nearest_row(solids: FloatArray, edges: FloatArray, x: float, y: float, z: f
     return least, index
 
 
-@kernel
+@leaf
 def nearest_solid(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
     """(d, index) of what is nearest: exact for solids and within CLOSE voxels of a field's, else a proved lower bound.
 
@@ -132,7 +132,7 @@ def nearest_solid(scene: Scene, x: float, y: float, z: float) -> tuple[float, in
     return least, index
 
 
-@kernel
+@leaf
 def nearest_exact(scene: Scene, x: float, y: float, z: float, most: float) -> tuple[float, int]:
     """`nearest_solid`, with the field's distance exact wherever it is below `most` and outside its voxels."""
     least, index = _nearest_row(scene.solids, scene.edges, x, y, z)
@@ -143,7 +143,7 @@ def nearest_exact(scene: Scene, x: float, y: float, z: float, most: float) -> tu
     return least, index
 
 
-@kernel
+@leaf
 def least_distances(
     scene: Scene, most: float, points: FloatArray, distances: FloatArray, gradients: FloatArray
 ) -> None:

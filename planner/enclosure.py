@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from planner.bspline import FloatArray
 from planner.certificate import margin, needed
 from planner.distance import NOTCHED, Scene, nearest_exact, nearest_solid, solid_distance
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 from planner.worlds import Box, Cylinder, Obstacle, Sphere, World
 
 PITCHES = (
@@ -35,7 +35,7 @@ MOST_DISTANCES = 30_000_000
 """Corners times solids of one reckoning: about 0.1 s, if all of them had to be asked for."""
 
 
-@kernel
+@leaf
 def blocked(scene: Scene, corners: FloatArray, nearest: NDArray[np.int64], need: float) -> bool:
     """Whether all of a cell with these corners (8, 3) is nearer than `need` to what is solid; False if in doubt.
 

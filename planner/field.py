@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.esdf import BoolArray, Float32Array
-from planner.jit import kernel
+from planner.jit import leaf
 
 FloatArray = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class Field(NamedTuple):
 NO_FIELD = Field(np.empty((0, 0, 0), np.float32), np.empty((0, 0, 0), np.bool_), np.zeros(3), 1.0)
 
 
-@kernel
+@leaf
 def _along(x: float, origin: float, h: float, cells: int) -> tuple[int, float, float]:
     """(cell, place in it in [0, 1], way from the lattice [m] with its sign) of one coordinate."""
     u = (x - origin) / h
@@ -66,7 +66,7 @@ def _along(x: float, origin: float, h: float, cells: int) -> tuple[int, float, f
     return i, u - i, 0.0
 
 
-@kernel
+@leaf
 def interpolate(
     distances: Float32Array, x0: float, y0: float, z0: float, h: float, far: float, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
@@ -101,7 +101,7 @@ def interpolate(
     return r, gx / r, gy / r, gz / r
 
 
-@kernel
+@leaf
 def field_bound(field: Field, x: float, y: float, z: float) -> float:
     """A proved lower bound of the signed distance from a point to the occupied voxels [m]; inf without any."""
     distances, origin, h = field.distances, field.origin, field.resolution
@@ -125,7 +125,7 @@ def field_bound(field: Field, x: float, y: float, z: float) -> float:
     return math.sqrt(max(square * SHRINK - spread, 0.0) + beyond)
 
 
-@kernel
+@leaf
 def field_distance(field: Field, x: float, y: float, z: float, most: float) -> float:
     """The distance from a point to the occupied voxels [m], exact where it is below `most`.
 

@@ -26,7 +26,7 @@ import numpy as np
 
 from planner.barrier import BAND, FLOOR, PAD, barrier, derivatives, newton_system
 from planner.bspline import FloatArray
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 
 FIRST, FASTER = 30.0, 10.0
 """t begins where the gap is 1/FIRST of the duration, and grows by this factor."""
@@ -40,7 +40,7 @@ HALVINGS = 20
 """Of a step, before none is taken."""
 
 
-@kernel
+@leaf
 def largest(X: FloatArray, first: int, end: int) -> float:
     """Largest |X_i|^2 of rows first .. end - 1."""
     most = 0.0
@@ -49,7 +49,7 @@ def largest(X: FloatArray, first: int, end: int) -> float:
     return most
 
 
-@kernel
+@leaf
 def _solve(H: FloatArray, g: FloatArray, step: FloatArray) -> float:
     """H step = g by banded elimination, H and g overwritten; returns g . step, NaN when H is not positive."""
     n, decrement = g.size, 0.0
@@ -71,7 +71,7 @@ def _solve(H: FloatArray, g: FloatArray, step: FloatArray) -> float:
     return decrement
 
 
-@kernel
+@leaf
 def stretch_needed(V: FloatArray, A: FloatArray, J: FloatArray, limits: FloatArray, held: tuple[int, int]) -> float:
     """By what factor time would have to be stretched for the limits (3,) to hold, of what is not held."""
     m = J.shape[0]

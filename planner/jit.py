@@ -24,7 +24,20 @@ _STAMP = _stamp()
 
 def kernel(function: F) -> F:
     """Compile in nopython mode, without the GIL, cached on disk; no fastmath, so results repeat bit for bit."""
-    dispatcher = njit(cache=True, nogil=True)(function)
+    return _compiled(function)
+
+
+def leaf(function: F) -> F:
+    """`kernel` for what makes no arrays and is called often: without counting references to those it is given.
+
+    A call of a dozen arrays counts each of them up and down, atomically, which takes as long as hundreds of additions.
+    numba has an option for that without a public name: it refuses to compile what does make an array.
+    """
+    return _compiled(function, _nrt=False)
+
+
+def _compiled(function: F, **options: bool) -> F:
+    dispatcher = njit(cache=True, nogil=True, **options)(function)
     # numba has no public way to add files to a cache's stamp; a test of this module notices when the name moves.
     dispatcher._cache._cache_file._source_stamp = _STAMP
     return dispatcher  # type: ignore[no-any-return]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from planner.bspline import FloatArray
 from planner.distance import Scene, nearest_solid
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 
 SLACK = 0.01
 """Beyond the radius, what a guide keeps [m]: one that just touches leaves the spline no room."""
@@ -42,7 +42,7 @@ def build_lattice(low: FloatArray, high: FloatArray, ends: FloatArray, width: Fl
     return Lattice(low, step, shape, ends, np.full(points, np.nan), np.ones(points))
 
 
-@kernel
+@leaf
 def free(
     scene: Scene, radius: float, a: FloatArray, b: FloatArray, spare_a: float, spare_b: float, gaps: FloatArray
 ) -> bool:

@@ -20,7 +20,7 @@ import numpy as np
 from planner.bspline import DEGREE, FloatArray, bezier_pieces
 from planner.certificate import MARGIN
 from planner.distance import BOX, SPHERE
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 from planner.worlds import Point, as_point
 
 MOST_MOVERS = 10_000
@@ -134,7 +134,7 @@ def table(movers: Sequence[Mover]) -> FloatArray:
     return np.array([mover.packed() for mover in movers], dtype=np.float64).reshape(-1, WIDTH)
 
 
-@kernel
+@leaf
 def grown_distance(
     m: FloatArray, k: int, grown: float, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
@@ -160,7 +160,7 @@ def grown_distance(
     return d, sx * qx / d, sy * qy / d, sz * qz / d
 
 
-@kernel
+@leaf
 def mover_distance(m: FloatArray, k: int, t: float, x: float, y: float, z: float) -> tuple[float, float, float, float]:
     """(d, gx, gy, gz) of a point to mover k as predicted for time t."""
     s = t - m[k, 11]
@@ -169,7 +169,7 @@ def mover_distance(m: FloatArray, k: int, t: float, x: float, y: float, z: float
     return d, gx, gy, gz
 
 
-@kernel
+@leaf
 def nearest_mover(pieces: FloatArray, times: FloatArray, m: FloatArray) -> tuple[float, int, float]:
     """(least distance, its mover, its time) on SAMPLES points of each Bezier piece; (inf, -1, 0) without any."""
     least, index, when = np.inf, -1, 0.0

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.jit import kernel
+from planner.jit import leaf
 
 FloatArray = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ STRAIGHT = 1e-14
 """Sine of the inward bend that still counts as straight: far below what the proof's rounding margin covers."""
 
 
-@kernel
+@leaf
 def polygon_distance(edges: FloatArray, first: int, count: int, x: float, y: float) -> tuple[float, float, float]:
     """(d, gx, gy): signed distance [m] to the polygon of rows first .. first + count - 1, and unit gradient.
 

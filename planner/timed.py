@@ -27,7 +27,7 @@ from planner.bspline import FloatArray
 from planner.cost import hinge
 from planner.distance import PRISM, SPHERE, Scene, plain_distance, prism_distance, solid_distance
 from planner.field import interpolate
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 from planner.movers import mover_distance
 
 SAMPLES = 4
@@ -65,7 +65,7 @@ class Timed(NamedTuple):
     weights: FloatArray  # (3,) k/c^2 and k_m/c_m^2 [1/m^3], LIMIT; stiffened as need be
 
 
-@kernel
+@leaf
 def span_of(knots: FloatArray, t: float) -> int:
     """k with knots[k] <= t < knots[k + 1]; the first or last span for what lies outside."""
     low, high = 3, knots.shape[0] - 4
@@ -78,7 +78,7 @@ def span_of(knots: FloatArray, t: float) -> int:
     return low
 
 
-@kernel
+@leaf
 def span_basis(u: FloatArray, k: int, t: float, out: FloatArray) -> None:
     """Write N_{k-3} .. N_k at t into out (3, 4): values, first and second derivatives (Piegl & Tiller, sec. 2.5)."""
     h = u[k + 1] - u[k]
@@ -99,7 +99,7 @@ def span_basis(u: FloatArray, k: int, t: float, out: FloatArray) -> None:
     out[2, 0], out[2, 1], out[2, 2], out[2, 3] = -e0, e0 - e1, e1 - e2, e2
 
 
-@kernel
+@leaf
 def pin(points: FloatArray, knots: FloatArray, start: FloatArray, end: FloatArray) -> None:
     """Set the first and last three control points so that the ends have those states (3, 3): rows p, v, a."""
     n = points.shape[0]
@@ -143,7 +143,7 @@ def derivative_norms(points: FloatArray, u: FloatArray) -> tuple[float, float, f
     return math.sqrt(speed), math.sqrt(acceleration), math.sqrt(jerk)
 
 
-@kernel
+@leaf
 def _limit(x: float, y: float, z: float, weight: float, most: float) -> tuple[float, float]:
     """(term, factor on the vector that makes its gradient) of one derivative control point."""
     e = (x * x + y * y + z * z) / (SLACK * most) ** 2 - 1.0
@@ -152,7 +152,7 @@ def _limit(x: float, y: float, z: float, weight: float, most: float) -> tuple[fl
     return weight * e * e, 4.0 * weight * e / (SLACK * most) ** 2
 
 
-@kernel
+@leaf
 def add_motion(m: Timed) -> float:
     """Energy and limits of m.points, gradient added to m.slopes."""
     u, p, v, a, gv, ga, g = m.knots, m.points, m.v, m.a, m.gv, m.ga, m.slopes
@@ -201,7 +201,7 @@ def add_motion(m: Timed) -> float:
     return cost
 
 
-@kernel
+@leaf
 def add_hinges(m: Timed) -> float:
     """Solids, walls and movers along m.points, gradient added to m.slopes."""
     p, g, b, u, starts, items, movers = m.points, m.slopes, m.basis, m.knots, m.starts, m.items, m.movers
@@ -292,7 +292,7 @@ def add_hinges(m: Timed) -> float:
     return total
 
 
-@kernel
+@leaf
 def timed_cost(x: FloatArray, gradient: FloatArray, m: Timed) -> float:
     """J [s] at the free control points x (3 f,) with its gradient written (3 f,)."""
     p, g = m.points, m.slopes

@@ -16,7 +16,7 @@ from planner.bspline import FloatArray, bezier_pieces
 from planner.certificate import prove
 from planner.descent import ARMIJO, MEMORY
 from planner.distance import Scene, solid_distance
-from planner.jit import kernel
+from planner.jit import kernel, leaf
 from planner.movers import prove_movers
 from planner.timed import FIXED, SAMPLES, SLACK, Timed, derivative_norms, pin, span_basis, span_of, timed_cost, timed_of
 
@@ -98,7 +98,7 @@ def factor(knots: FloatArray, f: int, limits: FloatArray) -> FloatArray:
     return band
 
 
-@kernel
+@leaf
 def solve(band: FloatArray, q: FloatArray) -> None:
     """q (3 f,) <- (L L^T)^-1 q for each coordinate, in place."""
     f = band.shape[0]
@@ -180,7 +180,7 @@ def descend(x: FloatArray, band: FloatArray, m: Timed, most: int) -> int:
     return evaluations
 
 
-@kernel
+@leaf
 def route_state(points: FloatArray, knots: FloatArray, t: float, state: FloatArray, row: FloatArray) -> None:
     """Write the spline's position, velocity and acceleration at t into state (3, 3); row (3, 4) is scratch."""
     t = min(max(t, knots[3]), knots[-4])
@@ -244,7 +244,7 @@ def judge(
     return bound >= ask.need and wall >= ask.need, within, passed >= ask.mover_need, distance, mover, when
 
 
-@kernel
+@leaf
 def nearest_still(m: Timed) -> float:
     """When, on the movers' clock, a sample of m.points is nearest to the solids of its span [s]."""
     least, when = np.inf, float(m.times[0, 0])
@@ -262,7 +262,7 @@ def nearest_still(m: Timed) -> float:
     return when
 
 
-@kernel
+@leaf
 def over(ask: Ask, speed: float, acceleration: float, jerk: float) -> float:
     """By what factor time has to be stretched for norms to come within the limits, below 1 when they are."""
     a, j = acceleration / ask.limits[1], jerk / ask.limits[2]
