@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from pathlib import Path
 from statistics import median
 
@@ -60,11 +61,11 @@ class Row:
 
 COLUMNS = {
     "length_m": ("length [m]", ".2f"),
-    "jerk_integral": ("∫|jerk|² [m²/s⁵]", ".0f"),
+    "jerk_integral": ("∫jerk² [m²/s⁵]", ".0f"),
     "curvature_max": ("curvature [1/m]", ".2f"),
-    "duration_s": ("duration [s]", ".2f"),
+    "duration_s": ("time [s]", ".2f"),
     "cpu_ms": ("CPU [ms]", ".1f"),
-    "clearance_m": ("clear beyond the radius [m]", ".3f"),
+    "clearance_m": ("spare [m]", ".3f"),
 }
 
 
@@ -88,9 +89,9 @@ def compare_methods(path: Path, seed: int, plot: Path | None, as_json: bool) -> 
         show.print_json({"ok": ok, "mission": mission.name, "seed": seed, "methods": methods, "best": best})
     else:
         _print(mission.name, len(requests), rows)
-    for row in rows:
-        if row.error:
-            out.print(f"[bold red]✗[/] {row.method}: {show.plain(row.text)}", soft_wrap=True)
+    for text, failed in groupby(sorted((row.text, i) for i, row in enumerate(rows) if row.error), key=lambda r: r[0]):
+        names = ", ".join(rows[i].method for _, i in failed)
+        out.print(f"[bold red]✗[/] {show.plain(f'{path}: {text} ({names})')}", soft_wrap=True)
     return 0 if ok else 1
 
 
@@ -127,12 +128,14 @@ def winners(rows: list[Row], name: str) -> list[Row]:
 def _print(name: str, legs: int, rows: list[Row]) -> None:
     table = Table(
         title=f"{show.plain(name)}: {legs} leg{'s' if legs != 1 else ''}, every method",
-        caption="*: best of the certified. ∞: stops and turns on the spot. In brackets: sampled, not proved.",
+        caption="*: best of the proved. ∞: stops and turns on the spot.\n"
+        "Spare: clearance beyond the radius; in brackets sampled, where it is not proved.",
     )
     table.add_column("method")
     for title, _ in COLUMNS.values():
-        table.add_column(title, justify="right")
-    table.add_column("certified", justify="right")
+        name, _, unit = title.partition(" ")
+        table.add_column(f"{name}\n{show.plain(unit)}", justify="right")  # bare brackets would be markup
+    table.add_column("proved", justify="right")
     best = {column: winners(rows, column) for column in COLUMNS}
     for row in rows:
         cells = []

@@ -33,7 +33,8 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
         _print(mission.name, answers)
     for leg in answers:
         if not leg.certified:
-            out.print(f"[bold red]✗[/] step {leg.request_id}: {show.plain(leg.text)}", soft_wrap=True)
+            reason = show.plain(f"{path}: step {leg.request_id}: {_reason(leg)}")
+            out.print(f"[bold red]✗[/] {reason}", soft_wrap=True)
     return 0 if ok else 1
 
 
@@ -85,5 +86,12 @@ def _leg_json(leg: PlanReady) -> dict[str, object]:
         "cpu_ms": leg.cpu_ms,
         "method": leg.method,
         "error": leg.error,
-        "text": leg.text,
+        "text": _reason(leg),
     }
+
+
+def _reason(leg: PlanReady) -> str:
+    """Why the leg is not flown; nothing when it can be."""
+    if leg.certified or leg.text:
+        return leg.text
+    return f"{leg.method} found a curve that is not proved clear, and what is not proved is not flown"

@@ -63,12 +63,17 @@ def test_one_json_object_holds_every_method_and_no_number_that_json_has_not(miss
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_the_table_names_every_method_and_marks_the_best(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_table_names_every_method_its_units_and_the_best(
+    mission: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "160")
     assert compare_methods(mission, 1, None, False) == 0
     shown = capsys.readouterr().out
     assert all(method in shown for method in METHODS)
     assert "*" in shown
     assert "∞" in shown
+    for unit in ("[m]", "[m²/s⁵]", "[1/m]", "[s]", "[ms]"):
+        assert unit in shown
 
 
 def test_no_way_is_a_row_without_numbers_and_exit_code_1(
