@@ -21,7 +21,11 @@ SAMPLES = 600
 MOST_QUADS = 400
 """Squares along an axis that voxels are drawn with; more of them are drawn by blocks."""
 Solid = Box | Cylinder | Sphere | Prism
-SOLID, HALO, PATH, ACCENT = "#5b6472", "#e9c9a3", "#1769aa", "#c0392b"
+SOLID, FAINT, HALO, PATH, ACCENT = "#5b6472", "#ced1d5", "#f2dfc8", "#1769aa", "#c0392b"
+"""Obstacles, those above or below the flight, the radius around the former; opaque, so that overlaps do not show."""
+HALO_Z, FAINT_Z, SOLID_Z = 0.2, 0.4, 0.6
+ROUND = 64
+"""Corners of what stands for a circle."""
 
 
 def save_plot(
@@ -68,17 +72,16 @@ def save_plot(
     if world.obstacles:
         nearest = int(np.argmin(clearance))
         _mark_nearest(top, world, points[nearest], view)
-        near = f"nearest obstacle {clearance[nearest]:.2f} m away; proved: radius + {plan.clearance:.3f} m"
+        near = f"nearest obstacle {clearance[nearest]:.3f} m away"
+        if plan.certified:
+            near += f", proved at least {radius + plan.clearance:.3f} m" + (f", asked {radius:g} m" if radius else "")
         top.set_title(near, loc="left", fontsize=10, color=ACCENT)
     proved = "proved clear" if plan.certified else "NOT PROVED"
     title = f"{plan.method}: {plan.length:.2f} m in {trajectory.duration:.2f} s, {proved}"
     figure.suptitle(title, x=0.01, ha="left", fontsize=12)
 
     low, high = sorted(up_sign * world.walls[:, 2])
-    _draw_voxels_beside(height, world, points, gone, up_sign)
-    for solid in _solids(world):
-        bottom, ceiling = _slice(solid, points)
-        height.fill_between(gone, up_sign * bottom, up_sign * ceiling, color=SOLID, alpha=0.55, lw=0)
+    draw_beside(height, world, points, gone, up_sign)
     height.plot(gone, up_sign * points[:, 2], color=PATH, lw=2)
     height.axhline(low, color="black", lw=1)
     height.axhline(high, color="black", lw=1)
@@ -114,24 +117,36 @@ def view_of(names: tuple[str, str, str]) -> tuple[FloatArray, tuple[str, str, st
 
 
 def draw_map(axes: Axes, world: World, bottom: float, ceiling: float, view: FloatArray, radius: float) -> None:
-    """Bounds, obstacles (darker where they reach the heights from `bottom` to `ceiling`), halo."""
+    """Bounds, obstacles (darker where they reach the heights from `bottom` to `ceiling`), and what lies within the
+    radius of those and of the walls."""
     from matplotlib.patches import Rectangle
 
     corners = world.walls @ view
     low, size = corners.min(axis=0), np.ptp(corners, axis=0)
-    axes.add_patch(Rectangle((low[0], low[1]), size[0], size[1], fill=False, lw=1.2, color="black"))
-    _draw_voxels(axes, world, view, bottom - radius, ceiling + radius, radius)
-    for layer in ("halo", "solid"):
-        for solid in _solids(world):
-            z0, z1 = _height(solid)
-            reached = z0 - radius < ceiling and z1 + radius > bottom
-            if layer == "solid":
-                axes.add_patch(_outline(solid, 0.0, view, color=SOLID, alpha=0.9 if reached else 0.3, lw=0))
-            elif radius > 0.0 and reached:
-                axes.add_patch(_outline(solid, radius, view, color=HALO, alpha=0.6, lw=0))
+    walls = axes.add_patch(Rectangle((low[0], low[1]), size[0], size[1], fill=False, lw=1.2, color="black"))
+    if radius > 0.0:
+        inner = np.maximum(size - 2.0 * radius, 0.0)
+        axes.add_patch(Rectangle((low[0], low[1]), size[0], size[1], color=HALO, lw=0, zorder=0.0))
+        axes.add_patch(Rectangle((low + (size - inner) / 2).tolist(), *inner, color="white", lw=0, zorder=0.1))
+    _draw_voxels(axes, world, view, bottom - radius, ceiling + radius, radius, walls)
+    for solid in _solids(world):
+        z0, z1 = _height(solid)
+        reached = z0 - radius < ceiling and z1 + radius > bottom
+        color, zorder = (SOLID, SOLID_Z) if reached else (FAINT, FAINT_Z)
+        axes.add_patch(_outline(solid, 0.0, view, color=color, lw=0, zorder=zorder))
+        if radius > 0.0 and reached:
+            axes.add_patch(_outline(solid, radius, view, color=HALO, lw=0, zorder=HALO_Z)).set_clip_path(walls)
     pad = 0.03 * float(size.max())
     axes.set(xlim=(low[0] - pad, low[0] + size[0] + pad), ylim=(low[1] - pad, low[1] + size[1] + pad))
     axes.set_aspect("equal")
+
+
+def draw_beside(axes: Axes, world: World, points: FloatArray, gone: FloatArray, sign: float) -> None:
+    """What stands above and below each point (m, 3) of a path, over the way gone (m,)."""
+    _draw_voxels_beside(axes, world, points, gone, sign)
+    for solid in _solids(world):
+        bottom, ceiling = _slice(solid, points)
+        axes.fill_between(gone, sign * bottom, sign * ceiling, color=SOLID, alpha=0.55, lw=0)
 
 
 def draw_path(axes: Axes, path: FloatArray) -> None:
@@ -153,7 +168,9 @@ def _solids(world: World) -> list[Solid]:
     return [obstacle for obstacle in world.obstacles if not isinstance(obstacle, VoxelGrid | PointCloud)]
 
 
-def _draw_voxels(axes: Axes, world: World, view: FloatArray, low: float, high: float, radius: float) -> None:
+def _draw_voxels(
+    axes: Axes, world: World, view: FloatArray, low: float, high: float, radius: float, walls: Patch
+) -> None:
     """A field's voxels from above, darker where one lies between the heights low and high; and their halo there."""
     field = world.scene.field
     if not field.occupied.size:
@@ -177,10 +194,11 @@ def _draw_voxels(axes: Axes, world: World, view: FloatArray, low: float, high: f
         halo = np.sqrt(np.maximum(near[np.ix_(*inside)], 0.0) ** 2 + beyond[0][:, None] ** 2 + beyond[1] ** 2)
         x, y = np.meshgrid(*(field.origin[a] + h * places[a] for a in (0, 1)), indexing="ij")
         around = np.einsum("aij,ab->bij", np.stack([x, y]), view[:2])
-        axes.contourf(*around, halo, levels=[-1.0, radius], colors=[HALO], alpha=0.6)
-    for columns, alpha in ((field.occupied, 0.3), (field.occupied[:, :, level], 0.9)):
+        axes.contourf(*around, halo, levels=[-1.0, radius], colors=[HALO], zorder=HALO_Z).set_clip_path(walls)
+    for columns, color, zorder in ((field.occupied, FAINT, FAINT_Z), (field.occupied[:, :, level], SOLID, SOLID_Z)):
         met = np.logical_or.reduceat(np.logical_or.reduceat(columns.any(axis=2), starts[0], 0), starts[1], 1)
-        axes.pcolormesh(*page, np.where(met, 1.0, np.nan), cmap=_plain(), alpha=alpha, linewidth=0, rasterized=True)
+        drawn = np.where(met, 1.0, np.nan)
+        axes.pcolormesh(*page, drawn, cmap=_plain(color), linewidth=0, rasterized=True, zorder=zorder)
 
 
 def _draw_voxels_beside(axes: Axes, world: World, points: FloatArray, gone: FloatArray, sign: float) -> None:
@@ -193,13 +211,15 @@ def _draw_voxels_beside(axes: Axes, world: World, points: FloatArray, gone: Floa
     met = np.zeros((len(column), field.occupied.shape[2]))
     met[over] = field.occupied[column[over, 0], column[over, 1]]
     z = sign * (field.origin[2] + field.resolution * np.arange(met.shape[1] + 1))
-    axes.pcolormesh(gone, z, np.where(met > 0, 1.0, np.nan).T, cmap=_plain(), alpha=0.55, linewidth=0, rasterized=True)
+    axes.pcolormesh(
+        gone, z, np.where(met > 0, 1.0, np.nan).T, cmap=_plain(SOLID), alpha=0.55, linewidth=0, rasterized=True
+    )
 
 
-def _plain() -> Colormap:
+def _plain(color: str) -> Colormap:
     from matplotlib.colors import ListedColormap
 
-    return ListedColormap([SOLID])
+    return ListedColormap([color])
 
 
 def _height(solid: Solid) -> tuple[float, float]:
@@ -218,9 +238,11 @@ def _outline(solid: Solid, grown: float, view: FloatArray, **style: Any) -> Patc
     if isinstance(solid, Prism):
         page = np.array([(x, y, 0.0) for x, y in solid.corners]) @ view
         parts = [Outline(page, closed=False)]
+        turn = np.linspace(0.0, 2.0 * np.pi, ROUND, endpoint=False)
+        circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
         for a, b in zip(page, np.roll(page, -1, axis=0), strict=True) if grown > 0.0 else ():
             aside = grown * np.array([a[1] - b[1], b[0] - a[0]]) / np.hypot(*(b - a))
-            parts += [Outline.circle(a, grown), Outline([a - aside, b - aside, b + aside, a + aside])]
+            parts += [Outline(a + grown * circle), Outline([a - aside, b - aside, b + aside, a + aside])]
         rings = [_turned(np.asarray(ring)) for part in parts for ring in part.to_polygons(closed_only=False)]
         return PathPatch(Outline.make_compound_path(*(Outline(ring, closed=True) for ring in rings)), **style)
     if isinstance(solid, Cylinder | Sphere):

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planner import Box, Cylinder, Limits, Sphere, World, plan
-from planner.plot import _slice, save_plot
+from planner import Box, Cylinder, Limits, Prism, Sphere, World, plan
+from planner.plot import _outline, _slice, save_plot
 
 WORLD = World(((0, 0, -4), (20, 20, 0)), [Box((9, 0, -2.5), (10, 20, 0)), Cylinder((5, 10), 0.5, (-4, 0))])
 
@@ -29,3 +29,15 @@ def test_the_vertical_through_a_ball_meets_it_at_its_chord() -> None:
     bottom, top = _slice(Sphere((0, 0, 1), 1.0), np.array([[0.0, 0, 9], [0.6, 0, 9], [2.0, 0, 9]]))
     np.testing.assert_allclose(bottom, [0.0, 0.2, np.nan])
     np.testing.assert_allclose(top, [2.0, 1.8, np.nan])
+
+
+def test_the_halo_of_a_prism_is_round_at_its_corners_and_everywhere_as_wide_as_the_radius() -> None:
+    triangle = Prism(((0, 0), (4, 0), (0, 3)), (0, 2))
+    halo = _outline(triangle, 0.5, np.eye(3)[:, :2]).get_path()
+    turn = np.linspace(0.0, 2.0 * np.pi, 200)
+    aside = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    for corner in triangle.corners:
+        assert all(halo.contains_point(p) for p in corner + 0.49 * aside)
+    assert not halo.contains_point((-0.4, -0.4))
+    assert halo.contains_point((2.0, -0.49))
+    assert not halo.contains_point((2.0, -0.51))
