@@ -157,7 +157,8 @@ def _draw(world: World, mission: Mission, rows: list[Row], plot: Path, out: Cons
     try:
         save_comparison(world, plans, plot, mission.planner_limits(), mission.planner_radius(), axes)
     except (OSError, ValueError) as error:
-        raise CompanionError(f"{plot}: cannot draw the plans: {error}") from error
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise CompanionError(f"{plot}: cannot draw the plans: {reason}") from error
     out.print(f"plot: {plot}")
 
 

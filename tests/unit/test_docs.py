@@ -40,3 +40,13 @@ def test_every_command_the_readme_shows_exists():
             [sys.executable, "-m", "companion", *command.split(), "--help"], capture_output=True, check=False
         )
         assert done.returncode == 0, command
+
+
+@pytest.mark.parametrize("page", [Path("docs/planner.md"), Path("docs/search.md"), Path("README.md")], ids=str)
+def test_the_pages_python_runs_as_it_stands(page, tmp_path, monkeypatch):
+    blocks = re.findall(r"```python\n(.*?)```", page.read_text(), re.S)
+    assert blocks
+    monkeypatch.chdir(tmp_path)
+    space = {}
+    for block in blocks:
+        exec(compile(block, str(page), "exec"), space)
