@@ -47,7 +47,7 @@ def in_mission_words(error: PlannerError) -> str:
         case BlockedByMovers():
             return (
                 f"no path found among what moves: {_ways(error)} from all that stands still, but moving obstacle "
-                f"{error.mover} is in the way after {error.time:.1f} s, and no other way or time that was tried avoids it"
+                f"{error.mover} is in the way after {error.time:.1f} s, and no other way or time tried avoids it"
             )
         case NoTimingFound():
             return (
