@@ -75,6 +75,15 @@ def plain_distance(solids: FloatArray, k: int, x: float, y: float, z: float) -> 
 
 
 @leaf
+def beyond(solids: FloatArray, k: int, x: float, y: float, reach: float) -> bool:
+    """Whether a box, cylinder or sphere is farther off than `reach` seen from above already: quicker than how far."""
+    dx, dy = x - solids[k, 1], y - solids[k, 2]
+    if solids[k, 0] == BOX:
+        return bool(abs(dx) >= solids[k, 4] + reach or abs(dy) >= solids[k, 5] + reach)
+    return bool(dx * dx + dy * dy >= (solids[k, 4] + reach) ** 2)
+
+
+@leaf
 def prism_distance(
     solids: FloatArray, edges: FloatArray, k: int, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:

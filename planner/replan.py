@@ -215,7 +215,7 @@ class Replanner:
         at = min(switch - flight.start_s, flight.trajectory.duration)
         s = flight.trajectory.state(at)
         state = np.array([s.position, s.velocity, s.acceleration])
-        if flight.to_goal:
+        if flight.to_goal or flight.trajectory is self._route:  # the goal may be another by now
             self._route, self._route_at = flight.trajectory, at
         else:
             self._route_at = self._nearest_on_route(state[0])

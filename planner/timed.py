@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from planner.bspline import FloatArray
 from planner.cost import hinge
-from planner.distance import PRISM, SPHERE, Scene, plain_distance, prism_distance, solid_distance
+from planner.distance import PRISM, SPHERE, Scene, beyond, plain_distance, prism_distance, solid_distance
 from planner.field import interpolate
 from planner.jit import kernel, leaf
 from planner.movers import mover_distance
@@ -223,6 +223,8 @@ def add_hinges(m: Timed) -> float:
             for item in range(first, end):
                 o = items[item]
                 if solids[o, 0] < PRISM:
+                    if beyond(solids, o, x, y, c):
+                        continue
                     d, gx, gy, gz = plain_distance(solids, o, x, y, z)
                 else:
                     d, gx, gy, gz = prism_distance(solids, edges, o, x, y, z)

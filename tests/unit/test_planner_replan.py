@@ -99,6 +99,15 @@ def test_another_goal_is_flown_to_near_or_far(first, goal):
     np.testing.assert_allclose(decision.flight.trajectory.position(99.0), goal, atol=1e-9)
 
 
+def test_a_goal_moved_a_little_late_in_the_flight_is_flown_to_on_what_is_left_of_the_way(first):
+    replanner = Replanner(WORLD, LIMITS, RADIUS, first)
+    replanner.retarget((12.5, 5.3, 1.2))
+    decision = replanner.step(0.75 * first.duration)
+    assert decision.reason == "on along the way"
+    assert decision.flight.trajectory.duration < 0.25 * first.duration + 1.0
+    check_claims(WORLD, decision, [], 2.0)
+
+
 def test_a_goal_inside_a_tree_is_refused_and_the_old_one_stays(first):
     replanner = Replanner(WORLD, LIMITS, RADIUS, first)
     with pytest.raises(GoalInCollision):
