@@ -61,7 +61,7 @@ def _along(x: float, origin: float, h: float, cells: int) -> tuple[int, float, f
     if u <= 0.0:
         return 0, 0.0, x - origin
     if u >= cells:
-        return cells - 1, 1.0, x - (origin + cells * h)
+        return cells - 1, 1.0, (u - cells) * h  # not x - (origin + cells h), which rounds in a frame's far corner
     i = min(int(u), cells - 1)
     return i, u - i, 0.0
 

@@ -215,6 +215,24 @@ def test_a_lone_voxel_is_seen_from_far_outside_its_lattice() -> None:
     assert found[1] == pytest.approx(0.3)
 
 
+@pytest.mark.parametrize("h", [0.05, 0.1, 0.2, 0.3])
+@pytest.mark.parametrize("offset", [5e5, 5.4e6, -1e7])
+def test_in_a_far_corner_of_the_frame_distances_outside_the_lattice_are_not_above_the_truth(
+    offset: float, h: float
+) -> None:
+    rng = np.random.default_rng(int(1000 * h))
+    origin = np.array([offset, -offset, 100.0])
+    for _ in range(60):
+        shape = rng.integers(1, 14, 3)
+        world = World((tuple(origin - 20), tuple(origin + 20)), [VoxelGrid(np.ones(shape, bool), tuple(origin), h)])
+        points = origin + rng.uniform(-1.0, shape * h + 1.0, (40, 3))
+        nearest = np.clip(points - origin, 0.0, shape * h)  # differences of near numbers are exact
+        truth = np.linalg.norm(points - origin - nearest, axis=1)
+        outside = truth > 0.0
+        distance = world.distance(points)[outside]
+        assert (distance <= truth[outside] + 1e-8).all(), "a voxel was looked past"
+
+
 def test_distances_of_a_mixed_world_are_the_least_of_all_its_obstacles() -> None:
     grid, ball = random_grid(8), Sphere((2, -2, 1), 0.7)
     points = np.random.default_rng(9).uniform(-5, 5, (500, 3))
