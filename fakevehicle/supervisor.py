@@ -23,7 +23,7 @@ from fakevehicle.guidance import (
     yaw_of,
 )
 from fakevehicle.landing import LandDetector
-from fakevehicle.modes import TRANSITIONS, Conditions, Event, Mode, Special, refusal
+from fakevehicle.modes import TRANSITIONS, Conditions, Event, Mode, Refusal, Special, refusal
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.vocabulary import Estimate, FloatArray, Setpoint
 
@@ -53,7 +53,7 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter("COM_DISARM_PRFLT", 10.0, -1.0, 60.0, "s", "Disarm when nobody takes off; not above 0: never"),
 )
 
-_FAILSAFE_MODE = {3: Mode.RTL, 4: Mode.LAND, 5: Mode.HOLD}
+_STREAM_LOST = {3: Event.FAIL_RTL, 4: Event.FAIL_LAND, 5: Event.FAIL_HOLD}
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,13 +138,13 @@ class Supervisor:
         """Whether an OFFBOARD setpoint came within COM_OF_LOSS_T."""
         return self._asked is not None and now_us - self._asked_us < self._parameters["COM_OF_LOSS_T"] * 1e6
 
-    def why_not_armable(self, now_us: int) -> str | None:
+    def why_not_armable(self, now_us: int) -> Refusal | None:
         """The reason arming would be refused, None when it would not: the PREARM bit of SYS_STATUS."""
         return refusal(Event.ASK_ARM, self.conditions(now_us))
 
     # What peers ask for
 
-    def ask(self, event: Event, now_us: int) -> str | None:
+    def ask(self, event: Event, now_us: int) -> Refusal | None:
         """A peer's wish. None: done (or already so). Otherwise the reason why not, and nothing has changed."""
         if (event is Event.ASK_ARM and self.armed) or (event in (Event.ASK_DISARM, Event.ASK_KILL) and not self.armed):
             return None
@@ -166,17 +166,17 @@ class Supervisor:
                     self._enter(outcome, now_us)
         return None
 
-    def ask_takeoff(self, now_us: int, z: float | None) -> str | None:
+    def ask_takeoff(self, now_us: int, z: float | None) -> Refusal | None:
         """Take off to a down coordinate [m], or to MIS_TAKEOFF_ALT above the ground when it is None."""
         estimate = self._estimate
         if z is not None and estimate is not None and z > float(estimate.position_n[2]) - ARRIVED:
-            return f"that altitude is {z - float(estimate.position_n[2]):.1f} m below the vehicle"
+            return Refusal.BELOW
         reason = self.ask(Event.ASK_TAKEOFF, now_us)
         if reason is None:
             self._takeoff_z = z
         return reason
 
-    def ask_goto(self, now_us: int, position_n: FloatArray, yaw: float) -> str | None:
+    def ask_goto(self, now_us: int, position_n: FloatArray, yaw: float) -> Refusal | None:
         """Fly to a point and hold there; (3,) [m], yaw [rad] or NaN for the present one."""
         reason = self.ask(Event.ASK_GOTO, now_us)
         if reason is None:
@@ -230,7 +230,7 @@ class Supervisor:
         """Lose OFFBOARD when the setpoints stop, and regain it when they return."""
         if self.mode is Mode.OFFBOARD:
             if not self.setpoints_fresh(now_us):
-                self._notice(Event.STREAM_LOST, now_us)
+                self._fail(_STREAM_LOST[int(self._parameters["COM_OBL_RC_ACT"])], "setpoints stopped", now_us)
         elif self.failsafe and self.setpoints_fresh(now_us) and (self.airborne or not self._flown):
             self._notice(Event.STREAM_BACK, now_us)
 
@@ -247,18 +247,21 @@ class Supervisor:
     def _notice(self, event: Event, now_us: int) -> None:
         """An event of the vehicle's own; the table says what follows."""
         outcome = TRANSITIONS[event][self.mode]
-        if outcome is Special.FAILSAFE:
-            mode = _FAILSAFE_MODE[int(self._parameters["COM_OBL_RC_ACT"])]
-            self.failsafe = True
-            self.notes.append((CRITICAL, f"Failsafe activated: setpoints stopped, {mode.title}"))
-            self._enter(mode, now_us)
-        elif outcome is Special.RESUME:
+        if outcome is Special.RESUME:
             self.failsafe = False
             self.notes.append((INFO, "Setpoints are back: Offboard"))
             self._enter(self.intended, now_us)
         elif isinstance(outcome, Mode):
             self.intended = outcome
             self.failsafe = False
+            self._enter(outcome, now_us)
+
+    def _fail(self, event: Event, why: str, now_us: int) -> None:
+        """A failsafe's wish: what was asked for stays what is intended."""
+        outcome = TRANSITIONS[event][self.mode]
+        if isinstance(outcome, Mode):
+            self.failsafe = True
+            self.notes.append((CRITICAL, f"Failsafe activated: {why}, {outcome.title}"))
             self._enter(outcome, now_us)
 
     def _arm(self, now_us: int) -> None:
@@ -317,7 +320,7 @@ class Supervisor:
                 return self._landing_setpoint(estimate)
             case Mode.RTL:
                 return self._return_setpoint(now_us, estimate)
-            case Mode.HOLD | Mode.POSITION:
+            case _:
                 return self._leg.setpoint(now_us, self._yaw) if self._leg else still(self._anchor_n, self._yaw)
 
     def _offboard_setpoint(self, now_us: int, estimate: Estimate) -> Setpoint | None:

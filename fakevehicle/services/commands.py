@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fakevehicle.codec import Message
-from fakevehicle.modes import Event, event_for_custom_mode
+from fakevehicle.modes import Event, Refusal, event_for_custom_mode
 from fakevehicle.places import Places
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.streams import Streams
@@ -69,9 +69,9 @@ def denied(reason: str) -> Verdict:
     return Verdict(mavlink.MAV_RESULT_DENIED, reason)
 
 
-def judged(refusal: str | None) -> Verdict:
+def judged(refusal: Refusal | None) -> Verdict:
     """What the supervisor said."""
-    return ACCEPTED if refusal is None else Verdict(mavlink.MAV_RESULT_TEMPORARILY_REJECTED, refusal)
+    return ACCEPTED if refusal is None else Verdict(mavlink.MAV_RESULT_TEMPORARILY_REJECTED, refusal.value)
 
 
 class Commands:
@@ -145,7 +145,7 @@ class Commands:
             return judged(self._supervisor.ask_takeoff(now_us, None))
         origin = self._places.origin
         if origin is None:
-            return judged("position not known yet")
+            return judged(Refusal.NO_POSITION)
         if not math.isfinite(altitude):
             return denied(f"altitude {altitude}")
         if command.frame in _RELATIVE:
@@ -191,7 +191,7 @@ class Commands:
         home, estimate_n = self._supervisor.home, self._supervisor.position_n
         origin = self._places.origin
         if origin is None or home is None or estimate_n is None:
-            return judged("position not known yet")
+            return judged(Refusal.NO_POSITION)
         target_n = estimate_n.copy()
         if not (math.isnan(command.latitude_deg) or math.isnan(command.longitude_deg)):
             if not _on_globe(command.latitude_deg, command.longitude_deg):
@@ -199,7 +199,7 @@ class Commands:
             place = Geodetic(np.radians(command.latitude_deg), np.radians(command.longitude_deg), origin.altitude)
             local_n = self._places.local(place)
             if local_n is None:
-                return judged("position not known yet")
+                return judged(Refusal.NO_POSITION)
             target_n[:2] = local_n[:2]
         altitude = command.params[4]
         if math.isfinite(altitude):
@@ -252,7 +252,7 @@ class Commands:
         message = None if number is None else self._streams.build(number)
         if message is None:
             if number is not None and self._streams.knows(number):
-                return judged(f"message {number} has no content yet")
+                return Verdict(mavlink.MAV_RESULT_TEMPORARILY_REJECTED, f"message {number} has no content yet")
             return denied(f"this vehicle has no message {number}")
         if command.params[4] == BROADCAST:
             self._outbox.everywhere(message)

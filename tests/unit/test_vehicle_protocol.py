@@ -300,7 +300,7 @@ def test_goto_on_the_ground_and_to_the_other_side_of_the_globe_is_refused(pilot:
     assert "km away" in pilot.texts()[-1]
 
 
-@pytest.mark.parametrize(("main", "sub"), [(1, 0), (4, 4), (7, 0)])
+@pytest.mark.parametrize(("main", "sub"), [(1, 0), (4, 9), (5, 0)])
 def test_a_mode_it_does_not_have_is_denied(pilot: Pilot, main: int, sub: int) -> None:
     before = pilot.mode
     assert pilot.command(176, 1, main, sub) == DENIED
