@@ -1,14 +1,22 @@
 """What a vehicle is made with: its place, its air, its links. Checked once, where it is built."""
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
+from fakevehicle.faults import Fault
+from fakevehicle.physics.wind import Gust
+from fakevehicle.sensors.obstacles import World
 from fakevehicle.vocabulary import FloatArray, Geodetic
 
 Profile = Literal["gcs", "onboard"]
 """Which of PX4's telemetry sets a link carries: "gcs" is the sparse one, "onboard" the fast one for a companion."""
+
+Autopilot = Literal["px4", "ardupilot"]
+"""Whose MAVLink behaviour the vehicle shows."""
+Gains = Literal["default", "paper", "pid", "tid", "fopid"]
+"""Which set of the loops' gains it starts with."""
 
 MAX_LINKS = 16
 
@@ -51,6 +59,12 @@ class VehicleConfig:
     links : at least one; names are unique.
     system_id : MAVLink system, 1..255. The autopilot's component is always 1.
     start_unix_us : Unix time at now_us = 0 [us], for SYSTEM_TIME; 0 says that the vehicle does not know.
+    autopilot : whose behaviour it shows on MAVLink.
+    instance : number of the vehicle among several in one process, from 0.
+    faults : of sensors and motors, on a schedule.
+    gusts : of the wind, on a schedule.
+    world : what its obstacle sensor and rangefinder see; None: nothing but the ground.
+    gains : preset of the loops.
 
     Raises
     ------
@@ -65,6 +79,12 @@ class VehicleConfig:
     links: tuple[LinkConfig, ...] = (LinkConfig("gcs", "gcs"), LinkConfig("onboard", "onboard"))
     system_id: int = 1
     start_unix_us: int = 0
+    autopilot: Autopilot = "px4"
+    instance: int = 0
+    faults: tuple[Fault, ...] = ()
+    gusts: tuple[Gust, ...] = ()
+    world: World | None = None
+    gains: Gains = "default"
 
     def __post_init__(self) -> None:
         if not 1 <= self.system_id <= 255:
@@ -80,3 +100,9 @@ class VehicleConfig:
             raise ValueError(f"home {self.home}: latitude or longitude outside the globe")
         if self.seed < 0:
             raise ValueError(f"seed {self.seed}: expected 0 or more")
+        if self.autopilot not in get_args(Autopilot):
+            raise ValueError(f"autopilot {self.autopilot!r}: expected one of {', '.join(get_args(Autopilot))}")
+        if self.gains not in get_args(Gains):
+            raise ValueError(f"gains {self.gains!r}: expected one of {', '.join(get_args(Gains))}")
+        if self.instance < 0:
+            raise ValueError(f"instance {self.instance}: expected 0 or more")

@@ -9,77 +9,54 @@ outputs bit for bit.
 """
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
 from fakevehicle import tick
 from fakevehicle.airframe import GRAVITY, Airframe
+from fakevehicle.battery import Battery
 from fakevehicle.control import gains
+from fakevehicle.control.cascade import SETPOINT
 from fakevehicle.control.gains import ControlTables
 from fakevehicle.errors import DivergedError
-from fakevehicle.estimator.horizon import Estimator, EstimatorConfig
+from fakevehicle.estimator import settings
+from fakevehicle.estimator.horizon import Estimator
+from fakevehicle.estimator.settings import estimator_config
+from fakevehicle.faults import Fault, FaultSchedule
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.physics.dynamics import STATE
-from fakevehicle.sensors.barometer import Barometer
-from fakevehicle.sensors.gps import GpsReceiver
+from fakevehicle.physics.wind import Gust
+from fakevehicle.sensors import suite
 from fakevehicle.sensors.imu import IMU
-from fakevehicle.sensors.magnetometer import Magnetometer, field_n
+from fakevehicle.sensors.magnetometer import field_n
+from fakevehicle.sensors.obstacles import World
+from fakevehicle.sensors.suite import Sensors
 from fakevehicle.vocabulary import (
     BaroSample,
     ControlStatus,
     Estimate,
     FloatArray,
     Geodetic,
+    Glance,
     GpsSample,
     ImuSample,
     MagSample,
+    ObstacleScan,
+    RangeSample,
     Setpoint,
     Truth,
 )
 
-GPS_TICKS, BARO_TICKS, MAG_TICKS = 25, 10, 10
-"""Ticks between samples: 10, 25 and 25 Hz."""
-GPS_DELAY_TICKS = 28
-"""A fix arrives 112 ms after it was true."""
+BATTERY_US = 20_000
+"""The battery is drawn from this often."""
 BLOCK = 256
 """Ticks whose random draws are made at once."""
 
-# The filter believes its sensors to be a little worse than the simulated ones are (NIS a little below its mean) and
-# their biases to wander a little faster: in a tick 8.0e-7 rad/s where SIM_GYR_WALK gives 6.3e-7, and 8.0e-6 m/s^2 where
-# SIM_ACC_WALK gives 6.3e-6 (were it the other way round, long flights would make it ever more certain and ever more
-# wrong). The simulated noises are a good receiver's (u-blox M9N: 0.05 m/s) and a MEMS IMU's with some vibration; PX4's
-# own defaults (0.015 rad/s, 0.35 m/s^2, 0.5 m, 0.3 m/s) allow for much worse and would let the position wander by twice
-# as much.
 PARAMETERS: tuple[Parameter, ...] = (
     *gains.PARAMETERS,
-    Parameter("EKF2_GYR_NOISE", 0.004, 1e-4, 0.1, "rad/s", "estimator: gyro noise"),
-    Parameter("EKF2_ACC_NOISE", 0.09, 0.01, 1.0, "m/s^2", "estimator: accelerometer noise"),
-    Parameter("EKF2_GYR_B_NOISE", 2e-4, 0, 0.01, "rad/s^2", "estimator: gyro bias walk"),
-    Parameter("EKF2_ACC_B_NOISE", 2e-3, 0, 0.01, "m/s^3", "estimator: accelerometer bias walk"),
-    Parameter("EKF2_GBIAS_INIT", 0.01, 0, 0.2, "rad/s", "estimator: gyro bias at the start"),
-    Parameter("EKF2_ABIAS_INIT", 0.1, 0, 0.5, "m/s^2", "estimator: accelerometer bias at the start"),
-    Parameter("EKF2_GPS_P_NOISE", 0.4, 0.01, 10, "m", "estimator: GPS position noise"),
-    Parameter("EKF2_GPS_V_NOISE", 0.06, 0.01, 5, "m/s", "estimator: GPS velocity noise"),
-    Parameter("EKF2_BARO_NOISE", 0.25, 0.01, 15, "m", "estimator: barometer noise"),
-    Parameter("FT_EKF_BARO_DRFT", 0.1, 0, 5, "m", "estimator: drift of the barometer in the long run"),
-    Parameter("FT_EKF_BARO_TAU", 300.0, 1, 10000, "s", "estimator: time in which the barometer's drift forgets"),
-    Parameter("EKF2_MAG_NOISE", 0.04, 0.001, 1, "gauss", "estimator: magnetometer noise"),
-    Parameter("EKF2_GPS_DELAY", 110.0, 4, 300, "ms", "estimator: age of a fix when it arrives, read at the start"),
-    Parameter("EKF2_REQ_GPS_H", 4.0, 0, 30, "s", "estimator: GPS must be good for this long before position is valid"),
-    Parameter("EKF2_TAU_POS", 0.25, 0.1, 1, "s", "estimator: time constant of the predicted position"),
-    Parameter("EKF2_TAU_VEL", 0.25, 0.1, 1, "s", "estimator: time constant of the predicted velocity"),
-    Parameter("FT_EKF_GATE", 0.999, 0.9, 0.999999, "", "estimator: chance of a good measurement to pass its gate"),
-    Parameter("SIM_GYR_NOISE", 0.003, 0, 0.1, "rad/s", "simulator: gyro noise of a 250 Hz sample"),
-    Parameter("SIM_ACC_NOISE", 0.07, 0, 2, "m/s^2", "simulator: accelerometer noise of a 250 Hz sample"),
-    Parameter("SIM_GYR_BIAS", 0.005, 0, 0.05, "rad/s", "simulator: spread of the gyro biases, drawn at the start"),
-    Parameter("SIM_ACC_BIAS", 0.05, 0, 0.5, "m/s^2", "simulator: spread of the accelerometer biases"),
-    Parameter("SIM_GYR_WALK", 1e-5, 0, 0.01, "rad/s/√s", "simulator: random walk of the gyro biases"),
-    Parameter("SIM_ACC_WALK", 1e-4, 0, 0.1, "m/s²/√s", "simulator: random walk of the accelerometer biases"),
-    Parameter("SIM_GPS_P_NOISE", 0.35, 0, 10, "m", "simulator: GPS horizontal noise, 1.5 times as much vertically"),
-    Parameter("SIM_GPS_V_NOISE", 0.05, 0, 5, "m/s", "simulator: GPS velocity noise, 1.5 times as much vertically"),
-    Parameter("SIM_BARO_NOISE", 0.2, 0, 5, "m", "simulator: barometer noise"),
-    Parameter("SIM_BARO_DRIFT", 0.1, 0, 5, "m", "simulator: slow drift of the barometer"),
-    Parameter("SIM_MAG_NOISE", 0.03, 0, 0.5, "gauss", "simulator: magnetometer noise"),
+    *settings.PARAMETERS,
+    *suite.PARAMETERS,
     Parameter("SIM_WIND_GUST", 0.0, 0, 20, "m/s", "simulator: Dryden turbulence, as the mean wind at 20 ft; 0 is calm"),
 )
 
@@ -95,6 +72,9 @@ class FlightStack:
     heading : its yaw there [rad].
     wind_n : (3,) velocity of the air over ground [m/s].
     seed : of every random number.
+    faults : of sensors and motors, on a schedule.
+    gusts : of the wind, on a schedule.
+    world : what rangefinder and obstacle sensor see.
     """
 
     TICK_US = 4_000
@@ -108,12 +88,15 @@ class FlightStack:
         heading: float,
         wind_n: FloatArray,
         seed: int,
+        faults: Iterable[Fault] = (),
+        gusts: Iterable[Gust] = (),
+        world: World | None = None,
     ) -> None:
         p = parameters
         self._parameters, self._version = parameters, parameters.version
-        self._home = home
-        imu_seed, gps_seed, baro_seed, mag_seed = np.random.default_rng(seed).spawn(4)
-        self._rng = imu_seed
+        self._faults = FaultSchedule(faults)
+        self._gusts = tuple(gusts)
+        self._rng, *generators = np.random.default_rng(seed).spawn(1 + suite.CHILDREN)
         self._noise: FloatArray = np.zeros((BLOCK, tick.DRAWS))
         self._ticks = 0
         self._body = airframe.record()
@@ -129,20 +112,24 @@ class FlightStack:
         self._imu = np.zeros(1, IMU)
         self._imu["gyro_bias"] = p["SIM_GYR_BIAS"] * self._rng.standard_normal(3)
         self._imu["accel_bias"] = p["SIM_ACC_BIAS"] * self._rng.standard_normal(3)
-        self._gps_receiver = GpsReceiver(home, gps_seed, GPS_DELAY_TICKS * self.TICK_US, 0.0, 0.0)
-        self._barometer = Barometer(baro_seed, 0.0, 0.0)
-        self._magnetometer = Magnetometer(mag_seed, 0.0)
-        self._estimator = Estimator(self._estimator_config(), field_n(), GRAVITY, self.TICK_US)
-        self._read_sensor_parameters()
+        self._sensors = Sensors(
+            home=home,
+            parameters=p,
+            generators=generators,
+            faults=self._faults,
+            world=world,
+            period_us=self.TICK_US,
+            q_nb=self._x[6:10],
+        )
+        self._estimator = Estimator(estimator_config(p), field_n(), GRAVITY, self.TICK_US)
+        self._read_own_parameters()
+        self._battery = Battery()
         self._gyro_bias: FloatArray = np.zeros(3)
-        self._setpoint: FloatArray = np.full(11, np.nan)
+        self._setpoint: FloatArray = np.full(SETPOINT, np.nan)
         self._setpoint_from: Setpoint | None = None
         self._motors = tick.RESTING
         self._touches = True
         self._now_us = 0
-        self._gps: GpsSample | None = None
-        self._baro = self._barometer.measure(0, home.altitude, 0.0)
-        self._mag = self._magnetometer.measure(0, self._x[6:10])
         self._sums = (self._imu["gyro_sum"][0], self._imu["accel_sum"][0])
         self._imu_sample = ImuSample(0, np.zeros(3), np.array([0.0, 0.0, -GRAVITY]))
         self._estimate: Estimate | None = None
@@ -197,27 +184,16 @@ class FlightStack:
             raise DivergedError(now_us, "position, velocity, attitude or body rate is not a finite number")
         self._motors, self._now_us, self._estimate = motors, now_us, None
         self._ticks += 1
-        self._sense(now_us)
+        self._imu_sample = ImuSample(now_us, self._sums[0] / tick.SUBSTEPS, self._sums[1] / tick.SUBSTEPS)
+        self._sensors.sense(self._ticks, now_us, self._x, estimator.add)
         estimator.step(self._imu_sample)
         self._gyro_bias[:] = estimator.bias[:3]
+        if now_us % BATTERY_US == 0:
+            self._battery.draw(self._thrust(), armed, BATTERY_US * 1e-6)
 
-    def _sense(self, now_us: int) -> None:
-        """Read the sensors that are due at the end of this tick, and hand them to the estimator."""
-        self._imu_sample = ImuSample(now_us, self._sums[0] / tick.SUBSTEPS, self._sums[1] / tick.SUBSTEPS)
-        n = self._ticks
-        if n % GPS_TICKS == 0:
-            self._gps_receiver.measure(now_us, self._x[0:3], self._x[3:6])
-        if n % BARO_TICKS == 3:
-            dt = BARO_TICKS * self.TICK_US * 1e-6
-            self._baro = self._barometer.measure(now_us, self._home.altitude - float(self._x[2]), dt)
-            self._estimator.add(self._baro)
-        if n % MAG_TICKS == 7:
-            self._mag = self._magnetometer.measure(now_us, self._x[6:10])
-            self._estimator.add(self._mag)
-        fix = self._gps_receiver.arrived(now_us)
-        if fix is not None:
-            self._gps = fix
-            self._estimator.add(fix)
+    def inject(self, fault: Fault) -> None:
+        """Add a fault to the schedule."""
+        self._faults.add(fault)
 
     def reset_control(self) -> None:
         """Forget the setpoints there were, without a bump of the motors: at a change of mode."""
@@ -231,6 +207,29 @@ class FlightStack:
         if self._estimate is None:
             self._estimate = self._estimator.estimate(self._now_us)
         return self._estimate
+
+    @property
+    def glance(self) -> Glance:
+        """The estimate in a few numbers."""
+        e = self.estimate
+        x, y, z = e.position_n.tolist()
+        vx, vy, vz = e.velocity_n.tolist()
+        return Glance(
+            now_us=self._now_us,
+            x=x,
+            y=y,
+            z=z,
+            vx=vx,
+            vy=vy,
+            vz=vz,
+            yaw=_yaw(e.q_nb),
+            thrust=self._thrust(),
+            attitude_valid=e.attitude_valid,
+            velocity_valid=e.velocity_valid,
+            position_valid=e.position_valid,
+            altitude_valid=e.altitude_valid,
+            resets=e.resets.count,
+        )
 
     @property
     def truth(self) -> Truth:
@@ -256,32 +255,43 @@ class FlightStack:
     @property
     def gps(self) -> GpsSample | None:
         """The newest fix; None before the first."""
-        return self._gps
+        return self._sensors.gps
 
     @property
     def baro(self) -> BaroSample:
         """The newest sample."""
-        return self._baro
+        return self._sensors.baro
 
     @property
     def mag(self) -> MagSample:
         """The newest sample."""
-        return self._mag
+        return self._sensors.mag
+
+    @property
+    def range(self) -> RangeSample | None:
+        """The newest sample of the rangefinder; None without one."""
+        return self._sensors.range
+
+    @property
+    def obstacles(self) -> ObstacleScan | None:
+        """The newest round of the obstacle sensor; None without one."""
+        return self._sensors.obstacles
+
+    @property
+    def battery(self) -> Battery:
+        """The pack, to be looked at only."""
+        return self._battery
 
     @property
     def control(self) -> ControlStatus:
         """What the loops did in the newest tick; `thrust` is what they asked for, before the mixer."""
         s, f = self._control.status[0], self._control.status["followed"][0].copy()
         speed_max, speed = float(self._body[0]["speed_max"]), s["command"]
-        if self._motors == tick.FLYING:
-            thrust = float(s["thrust"] / self._control.gains[0]["thrust_full"])
-        else:
-            thrust = float(np.sum(speed**2)) / (4.0 * speed_max**2)
         return ControlStatus(
             setpoint=Setpoint(f[0:3], f[3:6], f[6:9], float(f[9]), float(f[10])),
             attitude_setpoint_q_nb=s["q_sp"].copy(),
             rate_setpoint_b=s["rate_sp"].copy(),
-            thrust=thrust,
+            thrust=self._thrust(),
             motor=speed / speed_max,
             saturated=bool(s["saturated"] != 0.0),
         )
@@ -291,51 +301,31 @@ class FlightStack:
         """The estimator itself, for those who study it."""
         return self._estimator
 
+    def _thrust(self) -> float:
+        """Collective the loops ask for, or the turning motors give, 0..1 of the maximum."""
+        s = self._control.status[0]
+        if self._motors == tick.FLYING:
+            return float(s["thrust"] / self._control.gains[0]["thrust_full"])
+        return float(np.sum(s["command"] ** 2)) / (4.0 * float(self._body[0]["speed_max"]) ** 2)
+
     def _take(self, setpoint: Setpoint) -> None:
         s = self._setpoint
         s[0:3], s[3:6], s[6:9] = setpoint.position_n, setpoint.velocity_n, setpoint.acceleration_n
         s[9], s[10] = setpoint.yaw, setpoint.yaw_rate
+        s[11:15], s[15:18], s[18] = setpoint.attitude_q_nb, setpoint.rate_b, setpoint.thrust
         s[~np.isfinite(s)] = np.nan  # infinity asks for nothing
         self._setpoint_from = setpoint
 
     def _reload(self) -> None:
         self._version = self._parameters.version
         self._control.update(self._parameters, at_rest=self._motors == tick.RESTING)
-        self._estimator.configure(self._estimator_config())
-        self._read_sensor_parameters()
+        self._estimator.configure(estimator_config(self._parameters))
+        self._sensors.configure(self._parameters)
+        self._read_own_parameters()
 
-    def _read_sensor_parameters(self) -> None:
-        p, imu, dt = self._parameters, self._imu[0], self.TICK_US * 1e-6
-        imu["gyro_noise"] = math.sqrt(tick.SUBSTEPS) * p["SIM_GYR_NOISE"]
-        imu["accel_noise"] = math.sqrt(tick.SUBSTEPS) * p["SIM_ACC_NOISE"]
-        imu["gyro_walk"], imu["accel_walk"] = p["SIM_GYR_WALK"] * math.sqrt(dt), p["SIM_ACC_WALK"] * math.sqrt(dt)
-        self._gps_receiver.position_noise = float(p["SIM_GPS_P_NOISE"])
-        self._gps_receiver.velocity_noise = float(p["SIM_GPS_V_NOISE"])
-        self._barometer.noise, self._barometer.drift = float(p["SIM_BARO_NOISE"]), float(p["SIM_BARO_DRIFT"])
-        self._magnetometer.noise = float(p["SIM_MAG_NOISE"])
-        self._turbulence = float(p["SIM_WIND_GUST"])
-
-    def _estimator_config(self) -> EstimatorConfig:
-        p = self._parameters
-        return EstimatorConfig(
-            gyro_noise=float(p["EKF2_GYR_NOISE"]),
-            accel_noise=float(p["EKF2_ACC_NOISE"]),
-            gyro_walk=float(p["EKF2_GYR_B_NOISE"]),
-            accel_walk=float(p["EKF2_ACC_B_NOISE"]),
-            gyro_bias=float(p["EKF2_GBIAS_INIT"]),
-            accel_bias=float(p["EKF2_ABIAS_INIT"]),
-            gps_position=float(p["EKF2_GPS_P_NOISE"]),
-            gps_velocity=float(p["EKF2_GPS_V_NOISE"]),
-            baro=float(p["EKF2_BARO_NOISE"]),
-            baro_drift=float(p["FT_EKF_BARO_DRFT"]),
-            baro_drift_time=float(p["FT_EKF_BARO_TAU"]),
-            mag=float(p["EKF2_MAG_NOISE"]),
-            gps_delay_us=round(1000 * p["EKF2_GPS_DELAY"]),
-            gps_settling_us=round(1e6 * p["EKF2_REQ_GPS_H"]),
-            gate_probability=float(p["FT_EKF_GATE"]),
-            tau_position=float(p["EKF2_TAU_POS"]),
-            tau_velocity=float(p["EKF2_TAU_VEL"]),
-        )
+    def _read_own_parameters(self) -> None:
+        suite.configure_imu(self._imu, self._parameters, tick.SUBSTEPS, self.TICK_US * 1e-6)
+        self._turbulence = float(self._parameters["SIM_WIND_GUST"])
 
 
 def _yaw(q_nb: FloatArray) -> float:

@@ -13,24 +13,25 @@ The order of work in a tick
 `system_id` or 0 (all) and component 1 or 0, and ignores the rest; MAVLink 1 is read, MAVLink 2 is answered.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from fakevehicle import flight, supervisor
 from fakevehicle.airframe import load_airframe
-from fakevehicle.battery import Battery
 from fakevehicle.codec import AUTOPILOT_COMPONENT, Message, decode
 from fakevehicle.config import VehicleConfig
 from fakevehicle.flight import FlightStack
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.places import Places
-from fakevehicle.services import absent, timing
+from fakevehicle.services.absent import NoFiles, NoLogs, NoMissions, NoShell
 from fakevehicle.services.commands import Commands
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
+from fakevehicle.services.service import Service, merged
 from fakevehicle.services.setpoints import Setpoints
 from fakevehicle.services.streams import Streams
 from fakevehicle.services.telemetry import Telemetry
+from fakevehicle.services.timing import Timing
 from fakevehicle.supervisor import Supervisor
 from fakevehicle.vocabulary import Geodetic, Truth
 from wire.datagram import Datagram
@@ -52,8 +53,6 @@ PARAMETERS: tuple[Parameter, ...] = (
     *supervisor.PARAMETERS,
     *flight.PARAMETERS,
 )
-
-Handler = Callable[[Sender, Message], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,18 +109,34 @@ class Vehicle:
             heading=config.heading,
             wind_n=config.wind_n,
             seed=config.seed,
+            faults=config.faults,
+            gusts=config.gusts,
+            world=config.world,
         )
         self._supervisor = Supervisor(self.parameters)
-        self._battery = Battery()
         self._places = Places(self._origin, config.home)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
-        self._telemetry = Telemetry(config, self._stack, self._supervisor, self._battery, self._places)
-        self._streams = Streams(self._outbox, config.links, self._telemetry.builders)
+        self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
+        self._streams = Streams(self._outbox, config.links)
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
-        self._parameter_service = Parameters(self.parameters, self._outbox, READ_ONLY, self._warn)
+        self._services: tuple[Service, ...] = (
+            self._telemetry,
+            self._commands,
+            self._setpoints,
+            Parameters(self.parameters, self._outbox, READ_ONLY, self._warn),
+            Timing(self._outbox),
+            NoMissions(self._outbox, self._warn_rarely),
+            NoLogs(self._outbox, self._warn_rarely),
+            NoShell(self._outbox, self._warn_rarely),
+            NoFiles(self._outbox, self._warn_rarely),
+            self._streams,
+        )
+        self._handlers = merged("message", (service.routes() for service in self._services))
+        self._commands.table = merged("command", (service.commands() for service in self._services))
+        self._streams.table = merged("stream", (service.builders() for service in self._services))
+        self._steps = [service.step for service in self._services if type(service).step is not Service.step]
         self._framers = {link.name: Framer() for link in config.links}
-        self._handlers = self._routes()
         self._foreign = self._ignored = self._flooded = 0
         self._entered = 0
         self._told: tuple[object, ...] | None = None
@@ -183,7 +198,7 @@ class Vehicle:
         self._telemetry.now_us = now_us
         stack, supervisor = self._stack, self._supervisor
         if inputs:
-            self._take(inputs)
+            self._take(inputs, now_us)
         setpoint = supervisor.setpoint(now_us)
         if supervisor.entered != self._entered:
             self._entered = supervisor.entered
@@ -191,16 +206,14 @@ class Vehicle:
         stack.tick(now_us, setpoint, supervisor.armed)
         looking = now_us % LOOK_US == 0
         if looking:
-            thrust = stack.control.thrust
-            self._battery.draw(thrust, supervisor.armed, LOOK_US * 1e-6)
-            supervisor.look(now_us, stack.estimate, thrust)
+            supervisor.look(now_us, stack.estimate, stack.control.thrust)
         if looking or inputs:
             self._tell_changes()
-        self._parameter_service.step()
-        self._streams.step(now_us)
+        for step in self._steps:
+            step(now_us)
         return self._outbox.take()
 
-    def _take(self, inputs: Sequence[Datagram]) -> None:
+    def _take(self, inputs: Sequence[Datagram], now_us: int) -> None:
         """Frame, decode and hand out what came in."""
         budget = MAX_PACKETS
         ours = self.config.system_id
@@ -225,37 +238,7 @@ class Vehicle:
                     self._foreign += 1
                 else:
                     sender = Sender(datagram.link, datagram.peer, packet.system_id, packet.component_id)
-                    handler(sender, message)
-
-    def _routes(self) -> dict[int, Handler]:
-        """Which message goes to which service."""
-        m, out, commands, params = mavlink, self._outbox, self._commands, self._parameter_service
-        setpoints, warn_rarely = self._setpoints, self._warn_rarely
-        return {
-            m.MAVLINK_MSG_ID_COMMAND_LONG: lambda s, g: commands.command_long(s, g, self._now()),
-            m.MAVLINK_MSG_ID_COMMAND_INT: lambda s, g: commands.command_int(s, g, self._now()),
-            m.MAVLINK_MSG_ID_SET_MODE: lambda s, g: commands.set_mode(s, g, self._now()),
-            m.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: lambda _, g: setpoints.local_ned(g, self._now()),
-            m.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: lambda _, g: setpoints.global_int(g, self._now()),
-            m.MAVLINK_MSG_ID_SET_ATTITUDE_TARGET: lambda _, g: setpoints.attitude(g, self._now()),
-            m.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: params.request_list,
-            m.MAVLINK_MSG_ID_PARAM_REQUEST_READ: params.request_read,
-            m.MAVLINK_MSG_ID_PARAM_SET: params.set,
-            m.MAVLINK_MSG_ID_PING: lambda s, g: timing.ping(out, s, g),
-            m.MAVLINK_MSG_ID_TIMESYNC: lambda s, g: timing.timesync(out, s, g, self._now()),
-            m.MAVLINK_MSG_ID_MISSION_REQUEST_LIST: lambda s, g: absent.mission_list(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_COUNT: lambda s, g: absent.mission_count(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_MISSION_CLEAR_ALL: lambda s, g: absent.mission_clear(out, s, g),
-            m.MAVLINK_MSG_ID_MISSION_REQUEST: lambda s, g: absent.mission_request(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_MISSION_REQUEST_INT: lambda s, g: absent.mission_request(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_MISSION_SET_CURRENT: lambda s, g: absent.mission_request(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_MISSION_ITEM: lambda s, g: absent.mission_item(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_MISSION_ITEM_INT: lambda s, g: absent.mission_item(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_LOG_REQUEST_LIST: lambda s, g: absent.log_list(out, s, g),
-            m.MAVLINK_MSG_ID_LOG_REQUEST_DATA: lambda s, g: absent.log_data(out, s, g),
-            m.MAVLINK_MSG_ID_SERIAL_CONTROL: lambda s, g: absent.serial_control(out, s, g, warn_rarely),
-            m.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: lambda s, g: absent.file_transfer(out, s, g, warn_rarely),
-        }
+                    handler(sender, message, now_us)
 
     def _tell_changes(self) -> None:
         """HEARTBEAT, CURRENT_MODE and EXTENDED_SYS_STATE at every change, and what the supervisor has to say."""

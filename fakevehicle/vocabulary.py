@@ -17,6 +17,11 @@ def unused() -> FloatArray:
     return np.full(3, np.nan)
 
 
+def unused_attitude() -> FloatArray:
+    """A (4,) quaternion of NaN: no attitude is asked for."""
+    return np.full(4, np.nan)
+
+
 @dataclass(frozen=True, slots=True)
 class Geodetic:
     """A point on or above the WGS-84 ellipsoid (altitude above mean sea level, as MAVLink has it)."""
@@ -31,7 +36,8 @@ class Setpoint:
     """What the control loops follow for one tick. NaN on an axis means: not asked for.
 
     Where position is given, velocity and acceleration are feed-forward. Where only velocity is given, position floats
-    on that axis; where only acceleration is given, velocity floats too.
+    on that axis; where only acceleration is given, velocity floats too. Where `thrust` is given, it and the attitude or
+    the body rates are followed instead, and the three vectors in n count for nothing.
     """
 
     position_n: FloatArray = field(default_factory=unused)  # (3,) [m]
@@ -39,6 +45,42 @@ class Setpoint:
     acceleration_n: FloatArray = field(default_factory=unused)  # (3,) [m/s^2], gravity not included
     yaw: float = float("nan")  # [rad], NaN keeps the yaw there was
     yaw_rate: float = float("nan")  # [rad/s]
+    attitude_q_nb: FloatArray = field(default_factory=unused_attitude)  # (4,) wxyz
+    rate_b: FloatArray = field(default_factory=unused)  # (3,) [rad/s], feed-forward where an attitude is given
+    thrust: float = float("nan")  # collective, 0..1 of the maximum
+
+
+@dataclass(frozen=True, slots=True)
+class Resets:
+    """Jumps of the estimate that are no motion: who follows a point must move it by as much.
+
+    `count` says how many there were; the deltas are the newest one's, new less old.
+    """
+
+    count: int = 0
+    delta_position_n: FloatArray = field(default_factory=lambda: np.zeros(3))  # (3,) [m]
+    delta_velocity_n: FloatArray = field(default_factory=lambda: np.zeros(3))  # (3,) [m/s]
+    delta_yaw: float = 0.0  # [rad]
+
+
+@dataclass(frozen=True, slots=True)
+class Glance:
+    """The estimate in a few numbers, cheap enough for every tick: what guards, guidance and most telemetry need."""
+
+    now_us: int
+    x: float  # [m] local NED
+    y: float
+    z: float
+    vx: float  # [m/s]
+    vy: float
+    vz: float
+    yaw: float  # [rad]
+    thrust: float  # collective the loops ask for, 0..1 of the maximum
+    attitude_valid: bool
+    velocity_valid: bool
+    position_valid: bool
+    altitude_valid: bool
+    resets: int  # `Resets.count`
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +102,7 @@ class Estimate:
     position_valid: bool
     altitude_valid: bool
     origin: Geodetic | None  # None until the first fix
+    resets: Resets = field(default_factory=Resets)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +156,27 @@ class BaroSample:
 class MagSample:
     now_us: int
     field_b: FloatArray  # (3,) [gauss]
+
+
+@dataclass(frozen=True, slots=True)
+class RangeSample:
+    """What the downward rangefinder sees."""
+
+    now_us: int
+    distance: float  # [m] along z_b; NaN when nothing is within its reach
+    minimum: float  # [m]
+    maximum: float  # [m]
+
+
+@dataclass(frozen=True, slots=True)
+class ObstacleScan:
+    """One round of the obstacle sensor: the nearest thing in each of m directions."""
+
+    now_us: int
+    directions_b: FloatArray  # (m, 3) unit vectors
+    distance: FloatArray  # (m,) [m]; NaN where nothing is within reach
+    minimum: float  # [m]
+    maximum: float  # [m]
 
 
 @dataclass(frozen=True, slots=True)

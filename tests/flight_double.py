@@ -7,11 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from fakevehicle.battery import Battery
+from fakevehicle.faults import Fault
 from fakevehicle.vocabulary import (
     BaroSample,
     ControlStatus,
     Estimate,
     Geodetic,
+    Glance,
     GpsSample,
     ImuSample,
     MagSample,
@@ -37,6 +40,13 @@ class PointMass:
         self.setpoint = Setpoint()
         self.position_known = True
         self.resets = 0
+        self.battery = Battery()
+        self.faults: list[Fault] = []
+        self.range = None
+        self.obstacles = None
+
+    def inject(self, fault: Fault) -> None:
+        self.faults.append(fault)
 
     def reset_control(self) -> None:
         self.resets += 1
@@ -54,6 +64,8 @@ class PointMass:
                 np.isnan(setpoint.position_n), wanted, wanted + np.clip((setpoint.position_n - self.p) / 0.3, -5, 5)
             )
             self.thrust = HOVER
+        if now_us % 20_000 == 0:
+            self.battery.draw(self.thrust, armed, 0.02)
         self.v += np.clip((wanted - self.v) / 0.1, -9.8, 9.8) * dt
         self.p += self.v * dt
         if self.p[2] >= 0.0:  # on the ground; a loop that still wants down lets go of the thrust
@@ -81,6 +93,23 @@ class PointMass:
             position_valid=known and self.position_known,
             altitude_valid=known,
             origin=self.home if known else None,
+        )
+
+    @property
+    def glance(self) -> Glance:
+        known = self.now_us >= READY_US
+        w, _, _, z = self.q.tolist()
+        return Glance(
+            self.now_us,
+            *self.p.tolist(),
+            *self.v.tolist(),
+            2.0 * float(np.arctan2(z, w)),
+            self.thrust,
+            known,
+            known,
+            known and self.position_known,
+            known,
+            0,
         )
 
     @property

@@ -23,8 +23,9 @@ from fakevehicle.jit import kernel
 VELOCITY, RATE = 0, 3
 """First loop of the bank for velocity (n, e, d) and for body rates (x, y, z)."""
 
-SETPOINT = 11
-"""A setpoint as numbers: position 0:3, velocity 3:6, acceleration 6:9, yaw 9, yaw rate 10; NaN is "not asked for"."""
+SETPOINT = 19
+"""A setpoint as numbers: position 0:3, velocity 3:6, acceleration 6:9, yaw 9, yaw rate 10, attitude 11:15 (wxyz), body
+rate 15:18, thrust 18 (0..1 of the maximum); NaN is "not asked for". The last eight are not followed yet."""
 NAVIGATION = 16
 """An estimate as numbers: position 0:3, velocity 3:6, q_nb 6:10, omega_b 10:13, acceleration 13:16."""
 

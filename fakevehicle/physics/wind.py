@@ -16,10 +16,29 @@ first-order stand-in of the second-order form, with the same variance and scale 
 """
 
 import math
+from dataclasses import dataclass
 
 from fakevehicle.jit import kernel
+from fakevehicle.vocabulary import FloatArray
 
 FEET = 3.280839895
+
+
+@dataclass(frozen=True, slots=True)
+class Gust:
+    """A gust on the schedule: it rises, holds and falls again as fast as it rose.
+
+    Attributes
+    ----------
+    start_us : when it begins [us].
+    rise_s, hold_s : how long it takes to rise, and stays [s].
+    velocity_n : (3,) what it adds to the wind at its height, NED [m/s].
+    """
+
+    start_us: int
+    rise_s: float
+    hold_s: float
+    velocity_n: FloatArray
 
 
 @kernel

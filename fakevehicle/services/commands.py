@@ -1,19 +1,18 @@
 """COMMAND_LONG and COMMAND_INT: what each command does, and the COMMAND_ACK that always follows.
 
-Both messages become one `Command`; the table `_SERVICES` says who carries it out and which parameters are understood.
-A handler returns a `Verdict`; every refusal gives a reason, which goes out as a STATUSTEXT beside the ACK. NaN in a
-parameter counts as not given, and so does 0 in one that is not understood; any other value there is DENIED, since it
-asks for something that would not happen. Three are taken though they change nothing, for what clients really send: the
-pitch of a takeoff (of planes only; QGroundControl sends -1), a place to take off or land at, as long as it is the one
-below the vehicle, and the version number of REQUEST_AUTOPILOT_CAPABILITIES.
+Both messages become one `Command`; the table that the services' `commands()` make together says who carries it out and
+which parameters are understood. A handler returns a `Verdict`; every refusal gives a reason, which goes out as a
+STATUSTEXT beside the ACK. NaN in a parameter counts as not given, and so does 0 in one that is not understood; any
+other value there is DENIED, since it asks for something that would not happen. Three are taken though they change
+nothing, for what clients really send: the pitch of a takeoff (of planes only; QGroundControl sends -1), a place to take
+off or land at, as long as it is the one below the vehicle, and the version number of REQUEST_AUTOPILOT_CAPABILITIES.
 
 The refusals' result codes are PX4's: TEMPORARILY_REJECTED when the vehicle's condition forbids it, DENIED when the
 parameters do, UNSUPPORTED for a command it does not have, FAILED where PX4 fails (a stream it does not know).
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -21,6 +20,16 @@ from fakevehicle.codec import Message
 from fakevehicle.modes import Event, Refusal, event_for_custom_mode
 from fakevehicle.places import Places
 from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.service import (
+    ACCEPTED,
+    Command,
+    CommandSpec,
+    Handler,
+    Service,
+    Verdict,
+    denied,
+    judged,
+)
 from fakevehicle.services.streams import Streams
 from fakevehicle.supervisor import Supervisor
 from fakevehicle.vocabulary import Geodetic
@@ -34,55 +43,46 @@ _GLOBAL = (mavlink.MAV_FRAME_GLOBAL, mavlink.MAV_FRAME_GLOBAL_INT)
 _RELATIVE = (mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT, mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
 
 
-@dataclass(frozen=True, slots=True)
-class Command:
-    """A command in SI-neutral form.
+class Commands(Service):
+    """Acknowledges every command, and carries out those of flying, streams and requests.
 
     Attributes
     ----------
-    command : MAV_CMD.
-    params : the first four, and the seventh at index 4: what both messages have alike. NaN: not given.
-    latitude_deg, longitude_deg : parameters 5 and 6 as a place, [deg]; NaN: not given.
-    frame : MAV_FRAME; COMMAND_LONG has none and means GLOBAL.
+    table : the commands of all services; set by the vehicle once all of them stand.
+    rejected : how many were refused.
     """
-
-    command: int
-    params: tuple[float, float, float, float, float]
-    latitude_deg: float
-    longitude_deg: float
-    frame: int
-
-
-@dataclass(frozen=True, slots=True)
-class Verdict:
-    """What became of a command: MAV_RESULT, and the reason where it was refused."""
-
-    result: int
-    reason: str = ""
-
-
-ACCEPTED = Verdict(mavlink.MAV_RESULT_ACCEPTED)
-
-
-def denied(reason: str) -> Verdict:
-    """The parameters forbid it."""
-    return Verdict(mavlink.MAV_RESULT_DENIED, reason)
-
-
-def judged(refusal: Refusal | None) -> Verdict:
-    """What the supervisor said."""
-    return ACCEPTED if refusal is None else Verdict(mavlink.MAV_RESULT_TEMPORARILY_REJECTED, refusal.value)
-
-
-class Commands:
-    """Carries commands out and acknowledges them."""
 
     def __init__(self, supervisor: Supervisor, outbox: Outbox, streams: Streams, places: Places) -> None:
         self._supervisor = supervisor
         self._outbox = outbox
         self._streams = streams
         self._places = places
+        self.table: Mapping[int, CommandSpec] = {}
         self.rejected = 0
+
+    def routes(self) -> Mapping[int, Handler]:
+        """The two command messages, and the old SET_MODE."""
+        return {
+            mavlink.MAVLINK_MSG_ID_COMMAND_LONG: self.command_long,
+            mavlink.MAVLINK_MSG_ID_COMMAND_INT: self.command_int,
+            mavlink.MAVLINK_MSG_ID_SET_MODE: self.set_mode,
+        }
+
+    def commands(self) -> Mapping[int, CommandSpec]:
+        """What this service carries out itself."""
+        m = mavlink
+        return {
+            m.MAV_CMD_NAV_RETURN_TO_LAUNCH: CommandSpec(self._return, "Return"),
+            m.MAV_CMD_NAV_LAND: CommandSpec(self._land, "Landing", (5, 6, 7)),
+            m.MAV_CMD_NAV_TAKEOFF: CommandSpec(self._takeoff, "Takeoff", (1, 5, 6, 7)),
+            m.MAV_CMD_DO_SET_MODE: CommandSpec(self._set_mode, "Mode change", (1, 2, 3)),
+            m.MAV_CMD_DO_REPOSITION: CommandSpec(self._reposition, "Goto", (1, 2, 4, 5, 6, 7)),
+            m.MAV_CMD_COMPONENT_ARM_DISARM: CommandSpec(self._arm_disarm, "Arming", (1, 2)),
+            m.MAV_CMD_GET_MESSAGE_INTERVAL: CommandSpec(self._get_interval, "Message interval", (1,)),
+            m.MAV_CMD_SET_MESSAGE_INTERVAL: CommandSpec(self._set_interval, "Message interval", (1, 2, 7)),
+            m.MAV_CMD_REQUEST_MESSAGE: CommandSpec(self._request_message, "Message request", (1, 7)),
+            m.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: CommandSpec(self._request_capabilities, "Version request", (1,)),
+        }
 
     def command_long(self, sender: Sender, message: Message, now_us: int) -> None:
         """COMMAND_LONG: seven floats; 5 and 6 are degrees where they are a place."""
@@ -106,13 +106,13 @@ class Commands:
         self._carry_out(sender, command, now_us)
 
     def _carry_out(self, sender: Sender, command: Command, now_us: int) -> None:
-        service = _SERVICES.get(command.command)
-        if service is None:
+        spec = self.table.get(command.command)
+        if spec is None:
             verdict = Verdict(mavlink.MAV_RESULT_UNSUPPORTED, "this vehicle does not have it")
-        elif surplus := _surplus(command, service.understood):
+        elif surplus := _surplus(command, spec.understood):
             verdict = denied(surplus)
         else:
-            verdict = service.carry_out(self, sender, command, now_us)
+            verdict = spec.carry_out(sender, command, now_us)
         self._outbox.answer(
             sender,
             mavlink.MAVLink_command_ack_message(
@@ -121,7 +121,7 @@ class Commands:
         )
         if verdict.reason:
             self.rejected += 1
-            self._outbox.text(mavlink.MAV_SEVERITY_CRITICAL, f"{_title(command)} denied: {verdict.reason}")
+            self._outbox.text(mavlink.MAV_SEVERITY_CRITICAL, f"{_title(command, spec)} denied: {verdict.reason}")
 
     # The commands, in the order of their numbers
 
@@ -274,44 +274,10 @@ BROADCAST = 2.0
 """REQUEST_MESSAGE's response target that means everybody."""
 
 
-@dataclass(frozen=True, slots=True)
-class Service:
-    """Who carries a command out, and the numbers of the parameters it understands."""
-
-    carry_out: Callable[[Commands, Sender, Command, int], Verdict]
-    understood: tuple[int, ...] = ()
-
-
-_SERVICES: dict[int, Service] = {
-    mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: Service(Commands._return),
-    mavlink.MAV_CMD_NAV_LAND: Service(Commands._land, (5, 6, 7)),
-    mavlink.MAV_CMD_NAV_TAKEOFF: Service(Commands._takeoff, (1, 5, 6, 7)),
-    mavlink.MAV_CMD_DO_SET_MODE: Service(Commands._set_mode, (1, 2, 3)),
-    mavlink.MAV_CMD_DO_REPOSITION: Service(Commands._reposition, (1, 2, 4, 5, 6, 7)),
-    mavlink.MAV_CMD_COMPONENT_ARM_DISARM: Service(Commands._arm_disarm, (1, 2)),
-    mavlink.MAV_CMD_GET_MESSAGE_INTERVAL: Service(Commands._get_interval, (1,)),
-    mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: Service(Commands._set_interval, (1, 2, 7)),
-    mavlink.MAV_CMD_REQUEST_MESSAGE: Service(Commands._request_message, (1, 7)),
-    mavlink.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: Service(Commands._request_capabilities, (1,)),
-}
-
-_TITLES = {
-    mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: "Return",
-    mavlink.MAV_CMD_NAV_LAND: "Landing",
-    mavlink.MAV_CMD_NAV_TAKEOFF: "Takeoff",
-    mavlink.MAV_CMD_DO_SET_MODE: "Mode change",
-    mavlink.MAV_CMD_DO_REPOSITION: "Goto",
-    mavlink.MAV_CMD_COMPONENT_ARM_DISARM: "Arming",
-    mavlink.MAV_CMD_GET_MESSAGE_INTERVAL: "Message interval",
-    mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: "Message interval",
-    mavlink.MAV_CMD_REQUEST_MESSAGE: "Message request",
-}
-
-
-def _title(command: Command) -> str:
+def _title(command: Command, spec: CommandSpec | None) -> str:
     if command.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM and command.params[0] == 0.0:
         return "Disarming"
-    return _TITLES.get(command.command, f"Command {command.command}")
+    return f"Command {command.command}" if spec is None else spec.title
 
 
 def _surplus(command: Command, understood: tuple[int, ...]) -> str:

@@ -7,12 +7,13 @@ the download. Unlike PX4 the vehicle is never silent: an unknown name gets PARAM
 
 import struct
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from fakevehicle.codec import Message
 from fakevehicle.params import ParameterSet, ParameterType
 from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.service import Handler, Service
 from wire.dialect import mavlink
 
 HASH_NAME = "_HASH_CHECK"
@@ -29,7 +30,7 @@ class _Download:
     next_index: int
 
 
-class Parameters:
+class Parameters(Service):
     """Answers PARAM_REQUEST_LIST, PARAM_REQUEST_READ and PARAM_SET.
 
     Parameters
@@ -49,7 +50,15 @@ class Parameters:
         self._warn = warn
         self._downloads: list[_Download] = []
 
-    def request_list(self, sender: Sender, _message: Message) -> None:
+    def routes(self) -> Mapping[int, Handler]:
+        """List, read and set."""
+        return {
+            mavlink.MAVLINK_MSG_ID_PARAM_REQUEST_LIST: self.request_list,
+            mavlink.MAVLINK_MSG_ID_PARAM_REQUEST_READ: self.request_read,
+            mavlink.MAVLINK_MSG_ID_PARAM_SET: self.set,
+        }
+
+    def request_list(self, sender: Sender, _message: Message, _now_us: int) -> None:
         """Begin a download, or begin it again."""
         self._downloads = [d for d in self._downloads if d.sender != sender]
         if len(self._downloads) >= MAX_DOWNLOADS:
@@ -57,7 +66,7 @@ class Parameters:
             return
         self._downloads.append(_Download(sender, 0))
 
-    def request_read(self, sender: Sender, message: Message) -> None:
+    def request_read(self, sender: Sender, message: Message, _now_us: int) -> None:
         """One parameter by name, or by index where that is not -1."""
         if message.param_index < 0 and message.param_id == HASH_NAME:
             self._outbox.answer(sender, self._hash_message())
@@ -68,7 +77,7 @@ class Parameters:
         except (KeyError, IndexError):
             self._refuse(sender, message.param_id, message.param_index, NOT_FOUND, "no such parameter")
 
-    def set(self, sender: Sender, message: Message) -> None:
+    def set(self, sender: Sender, message: Message, _now_us: int) -> None:
         """Set and echo; a refusal names the reason and sends the value that stands."""
         name = message.param_id
         if name == HASH_NAME:  # a ground station says that its copy is good: the download can end
@@ -91,7 +100,7 @@ class Parameters:
                 self._refuse(sender, name, -1, mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE, str(error_))
         self._outbox.broadcast(sender.link, self.message(name))
 
-    def step(self) -> None:
+    def step(self, now_us: int) -> None:
         """Send the next few values of each running download."""
         for download in self._downloads:
             end = min(download.next_index + PER_TICK, len(self._parameters))

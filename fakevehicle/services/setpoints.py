@@ -7,7 +7,7 @@ a stream of refusals would drown the rest. The sender's clock (`time_boot_ms`) i
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from fakevehicle.codec import Message
 from fakevehicle.guidance import yaw_of
 from fakevehicle.places import Places
 from fakevehicle.services.commands import RADIANS_PER_E7
+from fakevehicle.services.outbox import Sender
+from fakevehicle.services.service import Handler, Service
 from fakevehicle.supervisor import Supervisor
 from fakevehicle.vocabulary import FloatArray, Geodetic, Setpoint
 from wire.dialect import mavlink
@@ -27,7 +29,7 @@ _GLOBAL = (mavlink.MAV_FRAME_GLOBAL, mavlink.MAV_FRAME_GLOBAL_INT)
 _RELATIVE = (mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT, mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
 
 
-class Setpoints:
+class Setpoints(Service):
     """Reads setpoints and hands them to the supervisor."""
 
     def __init__(self, supervisor: Supervisor, places: Places, warn: Callable[[str], None]) -> None:
@@ -37,7 +39,15 @@ class Setpoints:
         self._warned_us: dict[str, int] = {}  # a handful of fixed texts
         self.rejected = 0
 
-    def local_ned(self, message: Message, now_us: int) -> None:
+    def routes(self) -> Mapping[int, Handler]:
+        """The three setpoint messages."""
+        return {
+            mavlink.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self.local_ned,
+            mavlink.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self.global_int,
+            mavlink.MAVLINK_MSG_ID_SET_ATTITUDE_TARGET: self.attitude,
+        }
+
+    def local_ned(self, _sender: Sender, message: Message, now_us: int) -> None:
         """SET_POSITION_TARGET_LOCAL_NED."""
         m = message
         position_n = np.array([m.x, m.y, m.z])
@@ -55,7 +65,7 @@ class Setpoints:
             return
         self._take(m, position_n, turn, now_us)
 
-    def global_int(self, message: Message, now_us: int) -> None:
+    def global_int(self, _sender: Sender, message: Message, now_us: int) -> None:
         """SET_POSITION_TARGET_GLOBAL_INT: latitude and longitude e7, altitude above sea level or above home."""
         m = message
         origin, home = self._places.origin, self._supervisor.home
@@ -77,7 +87,7 @@ class Setpoints:
         position_n[2] = (float(home.position_n[2]) if relative else origin.altitude) - m.alt
         self._take(m, position_n, 0.0, now_us)
 
-    def attitude(self, _message: Message, now_us: int) -> None:
+    def attitude(self, _sender: Sender, _message: Message, now_us: int) -> None:
         """SET_ATTITUDE_TARGET: not flown yet."""
         self._refuse("attitude setpoints are not supported", now_us)
 

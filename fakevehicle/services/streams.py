@@ -5,12 +5,13 @@ on average although a tick is 4 ms; a stream that fell behind skips what it miss
 told in one tick is told of one estimate.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from heapq import heapify, heappop, heappush
 
 from fakevehicle.codec import Message
 from fakevehicle.config import LinkConfig, Profile
 from fakevehicle.services.outbox import Outbox
+from fakevehicle.services.service import Builder, Service
 from wire.dialect import mavlink
 
 SHORTEST_US = 4_000
@@ -65,21 +66,22 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
 }
 
 
-class Streams:
+class Streams(Service):
     """The schedule of all links.
 
     Parameters
     ----------
     outbox : where messages go.
     links : names and profiles.
-    builders : by message id; a builder gives None while it has nothing to say.
+
+    Attributes
+    ----------
+    table : builders of all services, by message id; set by the vehicle once all of them stand.
     """
 
-    def __init__(
-        self, outbox: Outbox, links: Sequence[LinkConfig], builders: Mapping[int, Callable[[], Message | None]]
-    ) -> None:
+    def __init__(self, outbox: Outbox, links: Sequence[LinkConfig]) -> None:
         self._outbox = outbox
-        self._builders = builders
+        self.table: Mapping[int, Builder] = {}
         self._profile = {link.name: link.profile for link in links}
         self._intervals_us: dict[str, dict[int, int]] = {}
         self._queues: dict[str, list[tuple[int, int]]] = {}  # heaps of (due_us, message id)
@@ -90,16 +92,16 @@ class Streams:
 
     def knows(self, message_id: int) -> bool:
         """Whether the vehicle has this message at all."""
-        return message_id in self._builders
+        return message_id in self.table
 
     def build(self, message_id: int) -> Message | None:
         """One message now; None when there is no such message, or nothing to say in it yet."""
-        builder = self._builders.get(message_id)
+        builder = self.table.get(message_id)
         return None if builder is None else builder()
 
     def interval_us(self, link: str, message_id: int) -> int:
         """Interval on one link [us]; -1 switched off, 0 not a message of this vehicle."""
-        if message_id not in self._builders:
+        if message_id not in self.table:
             return 0
         return self._intervals_us[link].get(message_id, -1)
 
@@ -108,7 +110,7 @@ class Streams:
 
         HEARTBEAT cannot be switched off.
         """
-        if message_id not in self._builders:
+        if message_id not in self.table:
             return False
         if interval_us == 0 or (interval_us < 0 and message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT):
             rate = RATES_HZ[self._profile[link]].get(message_id, 0.0)
@@ -128,7 +130,8 @@ class Streams:
             intervals_us = self._intervals_us[link]
             while queue and queue[0][0] <= now_us:
                 due_us, number = heappop(queue)
-                message = self._builders[number]()
+                builder = self.table.get(number)
+                message = builder() if builder is not None else None
                 if message is not None:
                     self._outbox.broadcast(link, message)
                 interval_us = intervals_us[number]

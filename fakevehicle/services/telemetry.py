@@ -8,7 +8,7 @@ The file is long since it is a list: 23 messages, each read against its definiti
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from fakevehicle.config import VehicleConfig
 from fakevehicle.flight import FlightStack
 from fakevehicle.modes import Mode
 from fakevehicle.places import Places
+from fakevehicle.services.service import Builder, Service
 from fakevehicle.supervisor import Supervisor
 from fakevehicle.vocabulary import Estimate, FloatArray
 from wire.dialect import mavlink
@@ -55,8 +56,8 @@ _STANDARD_MODE = {
 _FLAG = mavlink
 
 
-class Telemetry:
-    """Builds messages from the vehicle's parts; `builders` is the table the streams use.
+class Telemetry(Service):
+    """Builds messages from the vehicle's parts.
 
     `now_us` is set by the vehicle at each tick.
     """
@@ -76,8 +77,7 @@ class Telemetry:
         """The estimator's newest; made once a tick at most."""
         return self._stack.estimate
 
-    @property
-    def builders(self) -> Mapping[int, Callable[[], Message | None]]:
+    def builders(self) -> Mapping[int, Builder]:
         """By message id: everything the vehicle can stream or send on request."""
         m = mavlink
         return {
