@@ -5,7 +5,7 @@ PX4's do; everything goes out as MAVLink 2, whatever came in.
 """
 
 import struct
-from typing import Any
+from typing import Any, NamedTuple
 
 from fastcrc import crc16
 
@@ -16,6 +16,21 @@ Message = Any
 """One of pymavlink's generated message classes; they carry no common static type worth the name."""
 
 AUTOPILOT_COMPONENT = 1
+
+
+class Prepared(NamedTuple):
+    """A message whose payload is laid out already: what pymavlink's dialects lack, or what is too frequent for them.
+
+    Attributes
+    ----------
+    message_id : in MAVLink's numbering.
+    crc_extra : the definition's checksum, which goes into every packet's.
+    payload : the fields as on the wire, trailing zeros and all.
+    """
+
+    message_id: int
+    crc_extra: int
+    payload: bytes
 
 
 class Encoder:
@@ -30,17 +45,19 @@ class Encoder:
         self._system_id = system_id
         self._sequence = 0
 
-    def pack(self, message: Message) -> bytes:
+    def pack(self, message: Message | Prepared) -> bytes:
         """One MAVLink 2 packet.
 
         Parameters
         ----------
-        message : a pymavlink message whose fields fit their types; anything else is our own mistake.
+        message : a prepared one, or a pymavlink message whose fields fit their types; anything else is our own mistake.
 
         Raises
         ------
         struct.error : a field does not fit.
         """
+        if type(message) is Prepared:
+            return self._frame(*message)
         message._pack = self._frame
         packed: bytes = message.pack(
             type(message).id
