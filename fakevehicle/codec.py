@@ -56,7 +56,7 @@ class Encoder:
         ------
         struct.error : a field does not fit.
         """
-        if type(message) is Prepared:
+        if isinstance(message, Prepared):
             return self._frame(*message)
         message._pack = self._frame
         packed: bytes = message.pack(

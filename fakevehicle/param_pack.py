@@ -18,6 +18,7 @@ from urllib.parse import parse_qsl
 
 from fakevehicle.params import ParameterSet, ParameterType
 
+PATH = "@PARAM/param.pck"
 MAGIC = 0x671B
 MAGIC_DEFAULTS = 0x671C
 HAS_DEFAULT = 0x10

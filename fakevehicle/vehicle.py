@@ -20,11 +20,17 @@ from fakevehicle import flight, supervisor
 from fakevehicle.airframe import load_airframe
 from fakevehicle.codec import AUTOPILOT_COMPONENT, Message, decode
 from fakevehicle.config import VehicleConfig
+from fakevehicle.files import Files, MemoryFiles, Tree
 from fakevehicle.flight import FlightStack
+from fakevehicle.param_pack import PATH as PARAM_FILE
+from fakevehicle.param_pack import pack
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.places import Places
-from fakevehicle.services.absent import NoFiles, NoLogs, NoMissions, NoShell
+from fakevehicle.services.absent import NoMissions, NoShell
 from fakevehicle.services.commands import Commands
+from fakevehicle.services.ftp import Ftp
+from fakevehicle.services.logs import Logs
+from fakevehicle.services.metadata import Metadata
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
 from fakevehicle.services.service import Service, merged
@@ -47,6 +53,8 @@ MAX_PACKETS = 2048
 """Most packets of one tick; what is more is dropped and counted."""
 QUIET_US = 10_000_000
 """A refusal of a service that is not there is not put into words again before this."""
+MAX_WARNED = 64
+"""Texts remembered for that; some name what a peer asked for, so there is no end to them."""
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter("MAV_SYS_ID", 1, 1, 255, "", "MAVLink system id", ParameterType.INT32),
@@ -89,6 +97,7 @@ class Vehicle:
     ----------
     config : its airframe, place, air, links and seed.
     parameters : values that differ from the defaults, by name.
+    files : its recordings, for those who ask for logs; None: it keeps none.
 
     Raises
     ------
@@ -98,7 +107,9 @@ class Vehicle:
 
     TICK_US = TICK_US
 
-    def __init__(self, config: VehicleConfig, parameters: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self, config: VehicleConfig, parameters: Mapping[str, float] | None = None, files: Files | None = None
+    ) -> None:
         self.config = config
         overrides = {"MAV_SYS_ID": config.system_id, **(parameters or {})}
         self.parameters = ParameterSet(_distinct(PARAMETERS), overrides)
@@ -120,6 +131,9 @@ class Vehicle:
         self._streams = Streams(self._outbox, config.links)
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
+        recordings = MemoryFiles() if files is None else files
+        metadata = Metadata(self.parameters, READ_ONLY, self._now)
+        tree = Tree({PARAM_FILE: lambda query: pack(self.parameters, query), **metadata.files}, {"log": recordings})
         self._services: tuple[Service, ...] = (
             self._telemetry,
             self._commands,
@@ -127,9 +141,10 @@ class Vehicle:
             Parameters(self.parameters, self._outbox, READ_ONLY, self._warn),
             Timing(self._outbox),
             NoMissions(self._outbox, self._warn_rarely),
-            NoLogs(self._outbox, self._warn_rarely),
             NoShell(self._outbox, self._warn_rarely),
-            NoFiles(self._outbox, self._warn_rarely),
+            metadata,
+            Ftp(tree, self._outbox, self._warn_rarely),
+            Logs(recordings, self._outbox, self._warn_rarely),
             self._streams,
         )
         self._handlers = merged("message", (service.routes() for service in self._services))
@@ -141,7 +156,7 @@ class Vehicle:
         self._entered = 0
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
-        self._warned: dict[str, int] = {}  # a handful of fixed texts, and when each was last said
+        self._warned: dict[str, int] = {}  # texts, and when each was last said
         self._now_us: int | None = None
 
     @property
@@ -273,6 +288,9 @@ class Vehicle:
         """A warning that a client's next attempt does not bring up again for a while."""
         said = self._warned.get(text)
         if said is None or self._now() - said >= QUIET_US:
+            self._warned.pop(text, None)
+            while len(self._warned) >= MAX_WARNED:
+                del self._warned[next(iter(self._warned))]  # said longest ago
             self._warned[text] = self._now()
             self._warn(text)
 

@@ -10,7 +10,7 @@ higher again. What decides where servers differ:
 - A session's number is the one the client asks for. MAVSDK and MAVProxy go on with their own number whatever the answer
   says (PX4 allots one, ArduPilot does as we do); opening a number that is open opens it anew. Sessions belong to who
   opened them, by link, address and MAVLink identity: two clients may both use number 0.
-- A request that comes again with all its bytes, since the answer was lost, gets that answer again.
+- A request that comes again soon with all its bytes, since the answer was lost, gets that answer again.
 - A burst ends after `BURST_PACKETS`, or with the file, with "burst complete"; a client asks for the next one. It runs
   at `PACKETS_PER_TICK`, so that a socket's receive buffer holds it.
 - A file is what it was when it was opened, though a log may grow under it.
@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from fakevehicle.codec import Message
 from fakevehicle.files import MAX_READ, Entry, OpenFile, Tree
 from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.service import Handler, Service
 from wire.dialect import mavlink
 
 HEADER = struct.Struct("<HBBBBBBI")
@@ -36,6 +37,8 @@ IDLE_US = 10_000_000
 """A session that nobody has used for this long makes room when all are taken."""
 MAX_REMEMBERED = 64
 """Answers kept for requests that come again, one a client and session."""
+REPEAT_US = 3_000_000
+"""A request that comes again within this time is the same one; later, a client has begun anew."""
 BURST_PACKETS = 256
 PACKETS_PER_TICK = 8
 """Of all bursts together: 2000 packets and 478 kB a second."""
@@ -100,7 +103,7 @@ Refusal = tuple[int, str]
 """Error code, and the reason in words; empty for what is no refusal."""
 
 
-class Ftp:
+class Ftp(Service):
     """Answers FILE_TRANSFER_PROTOCOL.
 
     Parameters
@@ -115,14 +118,14 @@ class Ftp:
         self._outbox = outbox
         self._warn = warn
         self._sessions: dict[Key, Session] = {}
-        self._answered: dict[Key, tuple[bytes, bytes]] = {}  # the last request and its answer
+        self._answered: dict[Key, tuple[bytes, bytes, int]] = {}  # the last request, its answer, and when
 
     @property
     def open_sessions(self) -> int:
         """How many files are open."""
         return len(self._sessions)
 
-    def routes(self) -> Mapping[int, Callable[[Sender, Message, int], None]]:
+    def routes(self) -> Mapping[int, Handler]:
         """By message id."""
         return {mavlink.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: self.request}
 
@@ -134,7 +137,7 @@ class Ftp:
             return
         key = sender, session
         known = self._answered.get(key)
-        if known is not None and known[0] == raw:
+        if known is not None and known[0] == raw and now_us - known[2] < REPEAT_US:
             self._send(sender, known[1])
             return
         asked = Request(sequence, session, opcode, offset, size, raw[HEADER.size : HEADER.size + size])
@@ -149,7 +152,7 @@ class Ftp:
             self._answered.pop(key, None)
             while len(self._answered) >= MAX_REMEMBERED:
                 del self._answered[next(iter(self._answered))]  # the oldest
-            self._answered[key] = raw, answer
+            self._answered[key] = raw, answer, now_us
             self._send(sender, answer)
 
     def step(self, now_us: int) -> None:

@@ -13,6 +13,7 @@ from typing import TypeVar
 from fakevehicle.codec import Message
 from fakevehicle.files import Entry, Files
 from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.service import Handler, Service
 from wire.dialect import mavlink
 
 CHUNK = 90
@@ -38,7 +39,7 @@ class _Listing:
     total: int
 
 
-class Logs:
+class Logs(Service):
     """Answers the LOG messages.
 
     Parameters
@@ -55,7 +56,7 @@ class Logs:
         self._downloads: dict[Sender, _Download] = {}
         self._listings: dict[Sender, _Listing] = {}
 
-    def routes(self) -> Mapping[int, Callable[[Sender, Message, int], None]]:
+    def routes(self) -> Mapping[int, Handler]:
         """By message id."""
         m = mavlink
         return {
@@ -98,7 +99,7 @@ class Logs:
         """Never."""
         self._warn("Erasing logs refused: they can only be read")
 
-    def step(self, _now_us: int) -> None:
+    def step(self, now_us: int) -> None:
         """Send the next entries and data, every client in its turn."""
         for sender, listing in list(self._listings.items()):
             for number, entry in listing.entries[:ENTRIES_PER_TICK]:

@@ -13,6 +13,7 @@ from fakevehicle.codec import Prepared
 from fakevehicle.files import OpenFile
 from fakevehicle.params import ParameterSet, ParameterType
 from fakevehicle.services.ftp import checksum
+from fakevehicle.services.service import Builder, Service
 
 COMPONENT_METADATA = 397
 _CRC_EXTRA = 182
@@ -23,7 +24,7 @@ _TYPE_PARAMETER = 1  # COMP_METADATA_TYPE_PARAMETER
 _DECIMALS = 6
 
 
-class Metadata:
+class Metadata(Service):
     """Makes the two files and the message that leads to them.
 
     Parameters
@@ -51,7 +52,7 @@ class Metadata:
         """By path, for a `Tree`."""
         return {GENERAL: lambda _query: self._general, PARAMETERS: lambda _query: self._parameters}
 
-    def builders(self) -> Mapping[int, Callable[[], Prepared]]:
+    def builders(self) -> Mapping[int, Builder]:
         """By message id."""
         return {COMPONENT_METADATA: self.component_metadata}
 
