@@ -42,14 +42,14 @@ from planner.limits import Limits
 from planner.worlds import World
 
 SAMPLES = 6
-"""Samples of the obstacle term in each span: as few as do. Of bare searches 77 % are proved with 4, 93 % with 5, 99 % with
-6, 98 % with 8 (docs/planner.md)."""
+"""Samples of the obstacle term in each span, as few as do: of bare searches 77 % are proved with 4, 93 % with 5, 99 %
+with 6, 98 % with 8."""
 FIXED = 3
 """Control points pinned at each end: three equal ones are rest with zero acceleration (see `timing`)."""
 WEIGHT = 50.0
 """k. Around a corner of radius R the pull of the stretch, 2/R, meets the push 3 k e^2/c^2: the curve is e = c
 sqrt(2/(3 k R)) inside, a sixth of c at 0.45 m. With 30 every fourth best curve of a search lies just within the radius,
-with 50 one of fifty; with 60 ways through forests come out 0.1 % longer still (docs/planner.md)."""
+with 50 one of fifty; with 60 ways through forests come out 0.1 % longer still."""
 SHORTEST = 0.1
 """Least D [m], so that a hop to the place one is at has a scale too."""
 FINEST, MOST_CELLS = 2.0, 30_000
