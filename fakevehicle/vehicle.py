@@ -21,6 +21,8 @@ from fakevehicle.airframe import load_airframe
 from fakevehicle.codec import AUTOPILOT_COMPONENT, Message, decode
 from fakevehicle.config import VehicleConfig
 from fakevehicle.files import Files, MemoryFiles, Tree
+from fakevehicle.flavours import flavour_of
+from fakevehicle.flavours.base import Parts
 from fakevehicle.flight import FlightStack
 from fakevehicle.param_pack import PATH as PARAM_FILE
 from fakevehicle.param_pack import pack
@@ -91,7 +93,7 @@ class VehicleCounters:
 
 
 class Vehicle:
-    """A PX4-flavoured quadrotor.
+    """A quadrotor that speaks MAVLink as PX4 or ArduPilot does.
 
     Parameters
     ----------
@@ -111,8 +113,9 @@ class Vehicle:
         self, config: VehicleConfig, parameters: Mapping[str, float] | None = None, files: Files | None = None
     ) -> None:
         self.config = config
-        overrides = {"MAV_SYS_ID": config.system_id, **(parameters or {})}
-        self.parameters = ParameterSet(_distinct(PARAMETERS), overrides)
+        flavour = self._flavour = flavour_of(config.autopilot)
+        overrides = {"MAV_SYS_ID": config.system_id, **flavour.defaults, **(parameters or {})}
+        self.parameters = ParameterSet(_distinct((*PARAMETERS, *flavour.parameters)), overrides)
         self._stack = FlightStack(
             airframe=load_airframe(config.airframe),
             parameters=self.parameters,
@@ -128,8 +131,8 @@ class Vehicle:
         self._places = Places(self._origin, config.home)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
         self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
-        self._streams = Streams(self._outbox, config.links)
-        self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places)
+        self._streams = Streams(self._outbox, config.links, flavour.rates)
+        self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places, flavour)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
         recordings = MemoryFiles() if files is None else files
         metadata = Metadata(self.parameters, READ_ONLY, self._now)
@@ -147,10 +150,23 @@ class Vehicle:
             Logs(recordings, self._outbox, self._warn_rarely),
             self._streams,
         )
-        self._handlers = merged("message", (service.routes() for service in self._services))
-        self._commands.table = merged("command", (service.commands() for service in self._services))
-        self._streams.table = merged("stream", (service.builders() for service in self._services))
-        self._steps = [service.step for service in self._services if type(service).step is not Service.step]
+        flavour.attach(
+            Parts(
+                self._stack,
+                self._supervisor,
+                self.parameters,
+                self._places,
+                self._outbox,
+                self._telemetry,
+                self._streams,
+                self._setpoints,
+            )
+        )
+        services = self._services
+        self._handlers = {**merged("message", (s.routes() for s in services)), **flavour.routes()}
+        self._commands.table = {**merged("command", (s.commands() for s in services)), **flavour.commands()}
+        self._streams.table = {**merged("stream", (s.builders() for s in services)), **flavour.builders()}
+        self._steps = [s.step for s in (*services, flavour) if type(s).step is not Service.step]
         self._framers = {link.name: Framer() for link in config.links}
         self._foreign = self._ignored = self._flooded = 0
         self._entered = 0
@@ -222,6 +238,7 @@ class Vehicle:
         looking = now_us % LOOK_US == 0
         if looking:
             supervisor.look(now_us, stack.estimate, stack.control.thrust)
+            self._flavour.look(now_us)
         if looking or inputs:
             self._tell_changes()
         for step in self._steps:
@@ -256,27 +273,32 @@ class Vehicle:
                     handler(sender, message, now_us)
 
     def _tell_changes(self) -> None:
-        """HEARTBEAT, CURRENT_MODE and EXTENDED_SYS_STATE at every change, and what the supervisor has to say."""
-        s = self._supervisor
-        for severity, text in s.notes:
-            self._outbox.text(severity, text)
-        s.notes.clear()
-        state = (s.mode, s.intended, s.armed, s.failsafe, s.airborne, s.landing)
+        """The flavour's announcement at every change, and what the supervisor has to say."""
+        s, flavour = self._supervisor, self._flavour
+        if flavour.texts_first:
+            self._tell_notes()
+        state = flavour.state()
         if self._told is None:
-            self._told = state  # the streams begin with this tick
-        elif state != self._told:
-            self._told = state
-            for message in (
-                self._telemetry.heartbeat(),
-                self._telemetry.current_mode(),
-                self._telemetry.extended_sys_state(),
-            ):
+            self._told = (state,)  # the streams begin with this tick
+        elif self._told != (state,):
+            self._told = (state,)
+            for message in flavour.announcement():
                 self._outbox.everywhere(message)
+        if not flavour.texts_first:
+            self._tell_notes()
         if s.home is not self._told_home:
             self._told_home = s.home
             for maybe in (self._telemetry.gps_global_origin(), self._telemetry.home_position()):
                 if maybe is not None:
                     self._outbox.everywhere(maybe)
+
+    def _tell_notes(self) -> None:
+        """What the supervisor has to say, in the flavour's words."""
+        for severity, text in self._supervisor.notes:
+            said = self._flavour.noted(severity, text)
+            if said is not None:
+                self._outbox.text(*said)
+        self._supervisor.notes.clear()
 
     def _origin(self) -> Geodetic | None:
         return self._stack.estimate.origin

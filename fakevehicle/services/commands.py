@@ -13,6 +13,7 @@ parameters do, UNSUPPORTED for a command it does not have, FAILED where PX4 fail
 
 import math
 from collections.abc import Mapping
+from typing import Protocol
 
 import numpy as np
 
@@ -43,6 +44,16 @@ _GLOBAL = (mavlink.MAV_FRAME_GLOBAL, mavlink.MAV_FRAME_GLOBAL_INT)
 _RELATIVE = (mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT, mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
 
 
+class Judge(Protocol):
+    """What a flavour has to say about every command."""
+
+    def judged(self, command: Command, title: str, verdict: Verdict) -> tuple[int, tuple[int, str] | None]:
+        """MAV_RESULT, and the text (severity, words) that explains a refusal."""
+
+    def acknowledged(self, sender: Sender) -> None:
+        """The ACK has just been sent."""
+
+
 class Commands(Service):
     """Acknowledges every command, and carries out those of flying, streams and requests.
 
@@ -52,7 +63,10 @@ class Commands(Service):
     rejected : how many were refused.
     """
 
-    def __init__(self, supervisor: Supervisor, outbox: Outbox, streams: Streams, places: Places) -> None:
+    def __init__(
+        self, supervisor: Supervisor, outbox: Outbox, streams: Streams, places: Places, flavour: Judge
+    ) -> None:
+        self._flavour = flavour
         self._supervisor = supervisor
         self._outbox = outbox
         self._streams = streams
@@ -113,15 +127,16 @@ class Commands(Service):
             verdict = denied(surplus)
         else:
             verdict = spec.carry_out(sender, command, now_us)
+        result, said = self._flavour.judged(command, _title(command, spec), verdict)
         self._outbox.answer(
             sender,
-            mavlink.MAVLink_command_ack_message(
-                command.command, verdict.result, 0, 0, sender.system_id, sender.component_id
-            ),
+            mavlink.MAVLink_command_ack_message(command.command, result, 0, 0, sender.system_id, sender.component_id),
         )
+        self._flavour.acknowledged(sender)
         if verdict.reason:
             self.rejected += 1
-            self._outbox.text(mavlink.MAV_SEVERITY_CRITICAL, f"{_title(command, spec)} denied: {verdict.reason}")
+        if said is not None:
+            self._outbox.text(*said)
 
     # The commands, in the order of their numbers
 

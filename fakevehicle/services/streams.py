@@ -5,7 +5,7 @@ on average although a tick is 4 ms; a stream that fell behind skips what it miss
 told in one tick is told of one estimate.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from heapq import heapify, heappop, heappush
 
 from fakevehicle.codec import Message
@@ -18,53 +18,6 @@ SHORTEST_US = 4_000
 """One tick: no stream can be faster."""
 LONGEST_US = 3_600_000_000
 
-_m = mavlink
-RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
-    "gcs": {
-        _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
-        _m.MAVLINK_MSG_ID_ATTITUDE: 15,
-        _m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: 10,
-        _m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 1,
-        _m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5,
-        _m.MAVLINK_MSG_ID_SYS_STATUS: 1,
-        _m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 1,
-        _m.MAVLINK_MSG_ID_BATTERY_STATUS: 0.5,
-        _m.MAVLINK_MSG_ID_HOME_POSITION: 0.5,
-        _m.MAVLINK_MSG_ID_VFR_HUD: 4,
-        _m.MAVLINK_MSG_ID_ALTITUDE: 1,
-        _m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: 1.5,
-        _m.MAVLINK_MSG_ID_ATTITUDE_TARGET: 2,
-        _m.MAVLINK_MSG_ID_GPS_RAW_INT: 5,
-        _m.MAVLINK_MSG_ID_SYSTEM_TIME: 1,
-        _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
-        _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 1,
-        _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
-    },
-    "onboard": {
-        _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
-        _m.MAVLINK_MSG_ID_ATTITUDE: 100,
-        _m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: 50,
-        _m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 50,  # 30 on hardware; PX4's simulations raise it
-        _m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 50,
-        _m.MAVLINK_MSG_ID_ODOMETRY: 30,
-        _m.MAVLINK_MSG_ID_HIGHRES_IMU: 50,
-        _m.MAVLINK_MSG_ID_SYS_STATUS: 5,
-        _m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 5,
-        _m.MAVLINK_MSG_ID_BATTERY_STATUS: 0.5,
-        _m.MAVLINK_MSG_ID_HOME_POSITION: 0.5,
-        _m.MAVLINK_MSG_ID_VFR_HUD: 10,
-        _m.MAVLINK_MSG_ID_ALTITUDE: 10,
-        _m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: 10,
-        _m.MAVLINK_MSG_ID_ATTITUDE_TARGET: 10,
-        _m.MAVLINK_MSG_ID_GPS_RAW_INT: 5,
-        _m.MAVLINK_MSG_ID_SYSTEM_TIME: 1,
-        _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
-        _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 5,
-        _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
-        _m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: 50,  # the simulator's truth, for judging a flight; no loop sees it
-    },
-}
-
 
 class Streams(Service):
     """The schedule of all links.
@@ -73,20 +26,23 @@ class Streams(Service):
     ----------
     outbox : where messages go.
     links : names and profiles.
+    rates : the streams a profile starts with, message id to rate [Hz].
 
     Attributes
     ----------
     table : builders of all services, by message id; set by the vehicle once all of them stand.
     """
 
-    def __init__(self, outbox: Outbox, links: Sequence[LinkConfig]) -> None:
+    def __init__(
+        self, outbox: Outbox, links: Sequence[LinkConfig], rates: Callable[[Profile], Mapping[int, float]]
+    ) -> None:
         self._outbox = outbox
         self.table: Mapping[int, Builder] = {}
-        self._profile = {link.name: link.profile for link in links}
+        self._rates = {link.name: rates(link.profile) for link in links}
         self._intervals_us: dict[str, dict[int, int]] = {}
         self._queues: dict[str, list[tuple[int, int]]] = {}  # heaps of (due_us, message id)
         for link in links:
-            intervals = {number: round(1e6 / rate) for number, rate in RATES_HZ[link.profile].items()}
+            intervals = {number: round(1e6 / rate) for number, rate in self._rates[link.name].items()}
             self._intervals_us[link.name] = intervals
             self._queues[link.name] = [(0, number) for number in sorted(intervals)]
 
@@ -113,7 +69,7 @@ class Streams(Service):
         if message_id not in self.table:
             return False
         if interval_us == 0 or (interval_us < 0 and message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT):
-            rate = RATES_HZ[self._profile[link]].get(message_id, 0.0)
+            rate = self._rates[link].get(message_id, 0.0)
             interval_us = round(1e6 / rate) if rate else -1
         queue = self._queues[link] = [entry for entry in self._queues[link] if entry[1] != message_id]
         if interval_us < 0:

@@ -48,13 +48,6 @@ _SENSORS = (
     | mavlink.MAV_SYS_STATUS_AHRS
     | mavlink.MAV_SYS_STATUS_PREARM_CHECK
 )
-_STANDARD_MODE = {
-    Mode.POSITION: mavlink.MAV_STANDARD_MODE_POSITION_HOLD,
-    Mode.TAKEOFF: mavlink.MAV_STANDARD_MODE_TAKEOFF,
-    Mode.LAND: mavlink.MAV_STANDARD_MODE_LAND,
-    Mode.RTL: mavlink.MAV_STANDARD_MODE_SAFE_RECOVERY,
-}
-_FLAG = mavlink
 
 
 class Telemetry(Service):
@@ -82,8 +75,6 @@ class Telemetry(Service):
         """By message id: everything the vehicle can stream or send on request."""
         m = mavlink
         return {
-            m.MAVLINK_MSG_ID_HEARTBEAT: self.heartbeat,
-            m.MAVLINK_MSG_ID_CURRENT_MODE: self.current_mode,
             m.MAVLINK_MSG_ID_SYS_STATUS: self.sys_status,
             m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: self.extended_sys_state,
             m.MAVLINK_MSG_ID_SYSTEM_TIME: self.system_time,
@@ -108,30 +99,6 @@ class Telemetry(Service):
         }
 
     # What the vehicle is doing
-
-    def heartbeat(self) -> Message:
-        """base_mode as PX4 sets it: automatic modes are stabilized, guided and auto."""
-        s = self._supervisor
-        base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | mavlink.MAV_MODE_FLAG_STABILIZE_ENABLED
-        if s.mode.automatic:
-            base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED | mavlink.MAV_MODE_FLAG_AUTO_ENABLED
-        elif s.mode is Mode.POSITION:
-            base |= mavlink.MAV_MODE_FLAG_MANUAL_INPUT_ENABLED
-        if s.armed:
-            base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED
-            status = mavlink.MAV_STATE_CRITICAL if s.failsafe else mavlink.MAV_STATE_ACTIVE
-        elif s.why_not_armable(self.now_us) is None:
-            status = mavlink.MAV_STATE_STANDBY
-        else:
-            status = mavlink.MAV_STATE_UNINIT
-        return mavlink.MAVLink_heartbeat_message(
-            mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_PX4, base, s.mode.custom_mode, status, 3
-        )
-
-    def current_mode(self) -> Message:
-        s = self._supervisor
-        standard = _STANDARD_MODE.get(s.mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD)
-        return mavlink.MAVLink_current_mode_message(standard, s.mode.custom_mode, s.intended.custom_mode)
 
     def extended_sys_state(self) -> Message:
         s = self._supervisor

@@ -1,0 +1,111 @@
+"""PX4's way: its mode numbers, its streams, a HEARTBEAT at every change and texts before it."""
+
+from collections.abc import Mapping
+
+from fakevehicle.codec import Message
+from fakevehicle.config import Profile
+from fakevehicle.flavours.base import Flavour
+from fakevehicle.modes import Mode
+from fakevehicle.services.service import Builder
+from wire.dialect import mavlink
+
+_m = mavlink
+RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
+    "gcs": {
+        _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
+        _m.MAVLINK_MSG_ID_ATTITUDE: 15,
+        _m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: 10,
+        _m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 1,
+        _m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5,
+        _m.MAVLINK_MSG_ID_SYS_STATUS: 1,
+        _m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 1,
+        _m.MAVLINK_MSG_ID_BATTERY_STATUS: 0.5,
+        _m.MAVLINK_MSG_ID_HOME_POSITION: 0.5,
+        _m.MAVLINK_MSG_ID_VFR_HUD: 4,
+        _m.MAVLINK_MSG_ID_ALTITUDE: 1,
+        _m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: 1.5,
+        _m.MAVLINK_MSG_ID_ATTITUDE_TARGET: 2,
+        _m.MAVLINK_MSG_ID_GPS_RAW_INT: 5,
+        _m.MAVLINK_MSG_ID_SYSTEM_TIME: 1,
+        _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
+        _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 1,
+        _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
+    },
+    "onboard": {
+        _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
+        _m.MAVLINK_MSG_ID_ATTITUDE: 100,
+        _m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION: 50,
+        _m.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 50,  # 30 on hardware; PX4's simulations raise it
+        _m.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 50,
+        _m.MAVLINK_MSG_ID_ODOMETRY: 30,
+        _m.MAVLINK_MSG_ID_HIGHRES_IMU: 50,
+        _m.MAVLINK_MSG_ID_SYS_STATUS: 5,
+        _m.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 5,
+        _m.MAVLINK_MSG_ID_BATTERY_STATUS: 0.5,
+        _m.MAVLINK_MSG_ID_HOME_POSITION: 0.5,
+        _m.MAVLINK_MSG_ID_VFR_HUD: 10,
+        _m.MAVLINK_MSG_ID_ALTITUDE: 10,
+        _m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: 10,
+        _m.MAVLINK_MSG_ID_ATTITUDE_TARGET: 10,
+        _m.MAVLINK_MSG_ID_GPS_RAW_INT: 5,
+        _m.MAVLINK_MSG_ID_SYSTEM_TIME: 1,
+        _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
+        _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 5,
+        _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
+        _m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: 50,  # the simulator's truth, for judging a flight; no loop sees it
+    },
+}
+_STANDARD_MODE = {
+    Mode.POSITION: mavlink.MAV_STANDARD_MODE_POSITION_HOLD,
+    Mode.TAKEOFF: mavlink.MAV_STANDARD_MODE_TAKEOFF,
+    Mode.LAND: mavlink.MAV_STANDARD_MODE_LAND,
+    Mode.RTL: mavlink.MAV_STANDARD_MODE_SAFE_RECOVERY,
+}
+
+
+class Px4(Flavour):
+    """As PX4 v1.16 behaves, and kinder where modes.py says so."""
+
+    def rates(self, profile: Profile) -> Mapping[int, float]:
+        """PX4's own for its two kinds of links."""
+        return RATES_HZ[profile]
+
+    def builders(self) -> Mapping[int, Builder]:
+        """What tells the mode."""
+        return {
+            mavlink.MAVLINK_MSG_ID_HEARTBEAT: self.heartbeat,
+            mavlink.MAVLINK_MSG_ID_CURRENT_MODE: self.current_mode,
+        }
+
+    def state(self) -> object:
+        """Mode, arming and landed state."""
+        s = self.parts.supervisor
+        return s.mode, s.intended, s.armed, s.failsafe, s.airborne, s.landing
+
+    def announcement(self) -> tuple[Message, ...]:
+        """All three at every change of one of them."""
+        return self.heartbeat(), self.current_mode(), self.parts.telemetry.extended_sys_state()
+
+    def heartbeat(self) -> Message:
+        """base_mode as PX4 sets it: automatic modes are stabilized, guided and auto."""
+        s = self.parts.supervisor
+        base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | mavlink.MAV_MODE_FLAG_STABILIZE_ENABLED
+        if s.mode.automatic:
+            base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED | mavlink.MAV_MODE_FLAG_AUTO_ENABLED
+        elif s.mode is Mode.POSITION:
+            base |= mavlink.MAV_MODE_FLAG_MANUAL_INPUT_ENABLED
+        if s.armed:
+            base |= mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+            status = mavlink.MAV_STATE_CRITICAL if s.failsafe else mavlink.MAV_STATE_ACTIVE
+        elif s.why_not_armable(self.parts.telemetry.now_us) is None:
+            status = mavlink.MAV_STATE_STANDBY
+        else:
+            status = mavlink.MAV_STATE_UNINIT
+        return mavlink.MAVLink_heartbeat_message(
+            mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_PX4, base, s.mode.custom_mode, status, 3
+        )
+
+    def current_mode(self) -> Message:
+        s = self.parts.supervisor
+        standard = _STANDARD_MODE.get(s.mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD)
+        return mavlink.MAVLink_current_mode_message(standard, s.mode.custom_mode, s.intended.custom_mode)
