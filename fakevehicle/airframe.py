@@ -43,6 +43,8 @@ BODY = np.dtype(
         ("damping", "f8"),
         ("friction", "f8"),
         ("mix", "f8", (4, 4)),  # rotor thrusts from (tau_x, tau_y, tau_z, total thrust)
+        ("effect", "f8", (4,)),  # what is left of each rotor, 0..1
+        ("sag", "f8"),  # battery voltage over the one that full speed belongs to
     ]
 )
 """What the physics and the mixer know of the vehicle; one record."""
@@ -137,6 +139,7 @@ class Airframe(BaseModel):
         foot = float(np.mean([point[2] for point in self.contact_points_b]))
         b["ground"] = foot - self.mass * GRAVITY / (4 * self.contact_stiffness)
         b["mix"] = np.linalg.inv(self.allocation())
+        b["effect"], b["sag"] = 1.0, 1.0
         return body
 
 

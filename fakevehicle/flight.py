@@ -1,7 +1,7 @@
 """The flight stack: the vehicle below MAVLink, one tick of 4 ms at a time.
 
-A tick runs the loops, the physics and the IMU in one compiled call (`tick.advance`), then the slower sensors that are
-due, then the estimator. The loops see the estimate of the tick before and never truth.
+A tick runs the loops, the physics, the IMU and the estimator's output in one compiled call (`tick.advance`), then the
+slower sensors that are due, then the filter. The loops see the estimate of the tick before and never truth.
 
 Frames: setpoints and estimates in local NED from the estimator's origin (the first fix); truth in local NED from home,
 where the vehicle stands at the start. One seed gives every random number; the same seed and inputs give the same
@@ -10,6 +10,7 @@ outputs bit for bit.
 
 import math
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from fakevehicle import tick
 from fakevehicle.airframe import GRAVITY, Airframe
 from fakevehicle.battery import Battery
 from fakevehicle.control import gains
-from fakevehicle.control.cascade import SETPOINT
 from fakevehicle.control.gains import ControlTables
 from fakevehicle.errors import DivergedError
 from fakevehicle.estimator import settings
@@ -25,8 +25,7 @@ from fakevehicle.estimator.horizon import Estimator
 from fakevehicle.estimator.settings import estimator_config
 from fakevehicle.faults import Fault, FaultSchedule
 from fakevehicle.params import Parameter, ParameterSet
-from fakevehicle.physics.dynamics import STATE
-from fakevehicle.physics.wind import Gust
+from fakevehicle.physics.wind import TURBULENCE, Gust, gust_table
 from fakevehicle.sensors import suite
 from fakevehicle.sensors.imu import IMU
 from fakevehicle.sensors.magnetometer import field_n
@@ -95,18 +94,14 @@ class FlightStack:
         p = parameters
         self._parameters, self._version = parameters, parameters.version
         self._faults = FaultSchedule(faults)
-        self._gusts = tuple(gusts)
-        self._rng, *generators = np.random.default_rng(seed).spawn(1 + suite.CHILDREN)
+        self._gusts = gust_table(tuple(gusts))
+        self._rng, *generators, self._gust_rng = np.random.default_rng(seed).spawn(2 + suite.CHILDREN)
         self._noise: FloatArray = np.zeros((BLOCK, tick.DRAWS))
+        self._gust_noise: FloatArray = np.zeros((BLOCK, TURBULENCE))
         self._ticks = 0
         self._body = airframe.record()
-        self._x: FloatArray = np.zeros(STATE)
-        self._x[6], self._x[9] = math.cos(0.5 * heading), math.sin(0.5 * heading)
-        self._work: FloatArray = np.zeros((6, STATE))
-        c, s = math.cos(heading), math.sin(heading)
-        self._anchor: FloatArray = np.array(airframe.contact_points_b) @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-        self._wind: FloatArray = np.zeros((3, 3))
-        self._wind[0] = self._wind[2] = wind_n
+        self._world = _start(airframe, heading, wind_n)
+        self._x: FloatArray = self._world["x"][0]
         self._control = ControlTables(airframe, parameters)
         self._control.rest(heading)
         self._imu = np.zeros(1, IMU)
@@ -122,18 +117,15 @@ class FlightStack:
             q_nb=self._x[6:10],
         )
         self._estimator = Estimator(estimator_config(p), field_n(), GRAVITY, self.TICK_US)
+        self._turbulent = False
         self._read_own_parameters()
         self._battery = Battery()
-        self._gyro_bias: FloatArray = np.zeros(3)
-        self._setpoint: FloatArray = np.full(SETPOINT, np.nan)
+        self._setpoint: FloatArray = self._world["setpoint"][0]
         self._setpoint_from: Setpoint | None = None
         self._motors = tick.RESTING
         self._touches = True
         self._now_us = 0
-        self._sums = (self._imu["gyro_sum"][0], self._imu["accel_sum"][0])
-        self._imu_sample = ImuSample(0, np.zeros(3), np.array([0.0, 0.0, -GRAVITY]))
         self._estimate: Estimate | None = None
-        self._velocity_before: FloatArray = np.zeros(3)
 
     def tick(self, now_us: int, setpoint: Setpoint | None, armed: bool) -> None:
         """Advance by `TICK_US` to `now_us`.
@@ -159,19 +151,16 @@ class FlightStack:
         row = self._ticks % BLOCK
         if row == 0:
             self._rng.standard_normal(out=self._noise)
-        self._velocity_before[:] = self._x[3:6]
+            if self._turbulent:
+                self._gust_rng.standard_normal(out=self._gust_noise)
         control, estimator = self._control, self._estimator
-        self._touches = tick.advance(
+        flags = tick.advance(
             motors,
-            self._setpoint,
-            estimator.out,
-            self._gyro_bias,
+            now_us * 1e-6,
             self._noise[row],
-            self._x,
-            self._work,
-            self._anchor,
-            self._wind,
-            self._turbulence,
+            self._gust_noise[row],
+            self._gusts,
+            self._world,
             self._body,
             control.gains,
             control.status,
@@ -179,15 +168,17 @@ class FlightStack:
             control.bank.coefficients,
             control.bank.states,
             self._imu,
+            estimator.predictor,
+            estimator.imu,
+            estimator.ring,
         )
-        if not math.isfinite(float(self._x[0] + self._x[3] + self._x[6] + self._x[10])):
+        if flags & tick.DIVERGED:
             raise DivergedError(now_us, "position, velocity, attitude or body rate is not a finite number")
+        self._touches = flags != 0
         self._motors, self._now_us, self._estimate = motors, now_us, None
         self._ticks += 1
-        self._imu_sample = ImuSample(now_us, self._sums[0] / tick.SUBSTEPS, self._sums[1] / tick.SUBSTEPS)
         self._sensors.sense(self._ticks, now_us, self._x, estimator.add)
-        estimator.step(self._imu_sample)
-        self._gyro_bias[:] = estimator.bias[:3]
+        estimator.step(now_us)
         if now_us % BATTERY_US == 0:
             self._battery.draw(self._thrust(), armed, BATTERY_US * 1e-6)
 
@@ -239,18 +230,21 @@ class FlightStack:
             now_us=self._now_us,
             position_n=x[0:3].copy(),
             velocity_n=x[3:6].copy(),
-            acceleration_n=(x[3:6] - self._velocity_before) / (self.TICK_US * 1e-6),
+            acceleration_n=(x[3:6] - self._world["velocity_before"][0]) / (self.TICK_US * 1e-6),
             q_nb=x[6:10].copy(),
             omega_b=x[10:13].copy(),
             rotor_speed=x[13:17].copy(),
-            wind_n=self._wind[2].copy(),
+            wind_n=self._world["wind"][0].copy(),
             on_ground=bool(self._touches),
         )
 
     @property
     def imu(self) -> ImuSample:
         """Mean of the newest tick."""
-        return self._imu_sample
+        imu = self._imu[0]
+        if self._ticks == 0:
+            return ImuSample(0, np.zeros(3), np.array([0.0, 0.0, -GRAVITY]))
+        return ImuSample(self._now_us, imu["gyro_sum"] / tick.SUBSTEPS, imu["accel_sum"] / tick.SUBSTEPS)
 
     @property
     def gps(self) -> GpsSample | None:
@@ -325,7 +319,25 @@ class FlightStack:
 
     def _read_own_parameters(self) -> None:
         suite.configure_imu(self._imu, self._parameters, tick.SUBSTEPS, self.TICK_US * 1e-6)
-        self._turbulence = float(self._parameters["SIM_WIND_GUST"])
+        strength = float(self._parameters["SIM_WIND_GUST"])
+        self._world["strength"] = strength
+        if strength > 0.0 and not self._turbulent:  # the block under way has none for it yet
+            self._gust_rng.standard_normal(out=self._gust_noise)
+        self._turbulent = strength > 0.0
+
+
+def _start(airframe: Airframe, heading: float, wind_n: FloatArray) -> np.ndarray[Any, np.dtype[np.void]]:
+    """The (1,) record of `tick.WORLD` of a vehicle that stands at its home."""
+    world = np.zeros(1, tick.WORLD)
+    w = world[0]
+    w["x"][6], w["x"][9] = math.cos(0.5 * heading), math.sin(0.5 * heading)
+    c, s = math.cos(heading), math.sin(heading)
+    w["anchor"] = np.array(airframe.contact_points_b) @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    w["setpoint"] = np.nan
+    w["steady"] = w["wind"] = wind_n
+    speed = math.hypot(wind_n[0], wind_n[1])
+    w["along"] = (wind_n[0] / speed, wind_n[1] / speed) if speed > 0.0 else (1.0, 0.0)
+    return world
 
 
 def _yaw(q_nb: FloatArray) -> float:

@@ -1,40 +1,58 @@
 # mypy: disable-error-code="no-untyped-def"
 # kernels: numba types them by their arguments, which the docstrings name
-"""One tick of the vehicle without its estimator: 4 ms of loops, physics and IMU in a single compiled call.
+"""One tick of the vehicle, 4 ms of everything that happens at the IMU's rate or above, in a single compiled call.
 
-Order: outer loops once on the newest estimate; then four times: gyro sample, rate loop and mixer, one RK4 step of 1 ms
-under those rotor commands, feet, IMU sums; then wind and IMU biases move on.
+Order: outer loops once on the newest output of the estimator; then four times: gyro sample, rate loop and mixer, one
+RK4 step of 1 ms under those rotor commands, feet, IMU sums; then wind and IMU biases move on, and the estimator's
+output is carried to the end of the tick. What is left for Python are the slow sensors and the filter.
 """
 
 import math
 
-from fakevehicle.control.cascade import outer_loops, rate_loop
+import numpy as np
+
+from fakevehicle.control.cascade import SETPOINT, outer_loops, rate_loop
+from fakevehicle.estimator.predictor import advance_output
 from fakevehicle.jit import kernel
-from fakevehicle.physics.dynamics import step
+from fakevehicle.physics.dynamics import STATE, step
 from fakevehicle.physics.ground import settle
-from fakevehicle.physics.wind import gust_step
+from fakevehicle.physics.wind import TURBULENCE, scheduled, turbulence
 from fakevehicle.sensors.imu import integrate_imu, read_gyro, walk_biases
 
 SUBSTEPS = 4
 DT = 0.001
 RESTING, IDLE, FLYING = 0, 1, 2
 """What the motors do: nothing, turn slowly, obey the loops."""
-DRAWS = 4 * 6 + 6 + 3
-"""Normal draws one tick takes: IMU noise, bias walks, gusts."""
+DRAWS = 4 * 6 + 6
+"""Normal draws one tick takes: IMU noise and bias walks."""
+TOUCHES, DIVERGED = 1, 2
+"""Bits of what `advance` gives back."""
+
+WORLD = np.dtype(
+    [
+        ("x", "f8", (STATE,)),
+        ("work", "f8", (6, STATE)),
+        ("velocity_before", "f8", (3,)),  # at the beginning of the tick, in n [m/s]
+        ("anchor", "f8", (4, 3)),  # where each foot holds the ground
+        ("setpoint", "f8", (SETPOINT,)),
+        ("steady", "f8", (3,)),  # wind without gusts [m/s]
+        ("wind", "f8", (3,)),  # all of it
+        ("along", "f8", (2,)),  # north and east of the mean wind's direction
+        ("turbulence", "f8", (TURBULENCE,)),  # Dryden's states
+        ("strength", "f8"),  # W20 [m/s], 0 is calm
+    ]
+)
+"""The simulated world and what is asked of the vehicle in it; one record."""
 
 
 @kernel
 def advance(
     motors,
-    setpoint,
-    nav,
-    bias,
+    now,
     noise,
-    x,
-    work,
-    anchor,
-    wind,
-    turbulence,
+    gust_noise,
+    gusts,
+    world_,
     body_,
     gains_,
     status_,
@@ -42,27 +60,32 @@ def advance(
     coefficients,
     states,
     imu_,
+    predictor_,
+    samples,
+    outputs,
 ):
     """Advance everything by one tick.
 
     Parameters
     ----------
     motors : RESTING, IDLE or FLYING.
-    setpoint : (11,) and nav : (16,), see `control.cascade`.
-    bias : (3,) gyro bias the estimator believes in [rad/s].
-    noise : (DRAWS,) standard normal draws.
-    x : (17,) state, in place.  work : (6, 17) scratch.  anchor : (4, 3) feet.
-    wind : (3, 3) steady wind, gust, their sum [m/s].  turbulence : W20 [m/s], 0 is calm.
-    body_, gains_, status_, imu_ : (1,) of `airframe.BODY`, `cascade.GAINS`, `cascade.LOOPS`, `imu.IMU`.
+    now : the tick's end [s].
+    noise : (DRAWS,) and gust_noise : (TURBULENCE,) standard normal draws.
+    gusts : (n, 6), see `wind.gust_table`.
+    world_, body_, gains_, status_, imu_, predictor_ : (1,) of `WORLD`, `airframe.BODY`, `cascade.GAINS`,
+        `cascade.LOOPS`, `imu.IMU`, `predictor.PREDICTOR`.
     bank, coefficients, states : of the `LoopBank`.
+    samples, outputs : the estimator's rings (`predictor`).
 
     Returns
     -------
-    Whether a foot touches the ground.
+    TOUCHES when a foot touches the ground, plus DIVERGED when the state is no longer finite.
     """
-    body, gains, status, imu = body_[0], gains_[0], status_[0], imu_[0]
+    world, body, gains, status, imu, predictor = world_[0], body_[0], gains_[0], status_[0], imu_[0], predictor_[0]
+    x, work, anchor = world.x, world.work, world.anchor
+    bias = predictor.nominal[10:13]
     if motors == FLYING:
-        outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, SUBSTEPS * DT)
+        outer_loops(world.setpoint, predictor.out, gains, status, body, bank, coefficients, states, SUBSTEPS * DT)
     else:
         speed = body.speed_idle if motors == IDLE else 0.0
         for i in range(4):
@@ -70,6 +93,7 @@ def advance(
     for i in range(3):
         imu.gyro_sum[i] = 0.0
         imu.accel_sum[i] = 0.0
+        world.velocity_before[i] = x[3 + i]
     touches = False
     before = work[5]
     for k in range(SUBSTEPS):
@@ -80,20 +104,48 @@ def advance(
         else:
             for i in range(3):
                 status.gyro[i] += status.gyro_gain * (g[i] - bias[i] - status.gyro[i])
-        for i in range(17):
+        for i in range(STATE):
             before[i] = x[i]
-        step(x, status.command, wind[2], anchor, body, DT, work)
+        step(x, status.command, world.wind, anchor, body, DT, work)
         if x[2] > body.ground - 2.0 * abs(body.contact[0, 2]) - 0.5:
             touches = settle(x, anchor, body)
         integrate_imu(before, x, body.gravity, DT, imu, noise, 6 * k)
     walk_biases(imu, noise, 6 * SUBSTEPS)
-    if turbulence > 0.0:
-        ax, ay, az = x[3] - wind[0, 0], x[4] - wind[0, 1], x[5] - wind[0, 2]
-        airspeed = math.sqrt(ax * ax + ay * ay + az * az)
-        gust_step(wind[1], turbulence, body.ground - x[2], airspeed, SUBSTEPS * DT, noise[6 * SUBSTEPS + 6 :])
-    else:
-        for i in range(3):
-            wind[1, i] = 0.0
+    blow(world, body, gusts, gust_noise, now)
+    rates, forces = imu.gyro_sum, imu.accel_sum
+    share = 1.0 / SUBSTEPS
+    advance_output(
+        predictor,
+        samples,
+        outputs,
+        rates[0] * share,
+        rates[1] * share,
+        rates[2] * share,
+        forces[0] * share,
+        forces[1] * share,
+        forces[2] * share,
+        SUBSTEPS * DT,
+        body.gravity,
+    )
+    flags = TOUCHES if touches else 0
+    return flags if math.isfinite(x[0] + x[3] + x[6] + x[10]) else flags + DIVERGED
+
+
+@kernel
+def blow(world, body, gusts, noise, now):
+    """The wind of the next tick: steady, scheduled and turbulent parts, into `world.wind`."""
+    x, wind = world.x, world.wind
     for i in range(3):
-        wind[2, i] = wind[0, i] + wind[1, i]
-    return touches
+        wind[i] = world.steady[i]
+    if world.strength > 0.0:
+        ax, ay, az = x[3] - wind[0], x[4] - wind[1], x[5] - wind[2]
+        airspeed = math.sqrt(ax * ax + ay * ay + az * az)
+        u, v, w = turbulence(world.turbulence, world.strength, body.ground - x[2], airspeed, SUBSTEPS * DT, noise)
+        c, s = world.along[0], world.along[1]
+        wind[0] += c * u - s * v
+        wind[1] += s * u + c * v
+        wind[2] += w
+    else:
+        for i in range(TURBULENCE):
+            world.turbulence[i] = 0.0
+    scheduled(gusts, now, wind)

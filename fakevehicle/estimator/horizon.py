@@ -2,9 +2,10 @@
 
 Theory of operation. GPS arrives 110 ms after it was true. The filter therefore runs on a horizon that lies that far
 behind the newest IMU sample: IMU samples wait in a ring, others wait until the horizon reaches the time they were true.
-An output predictor (`strapdown.predict_output`) carries the result to now, at the IMU's rate (PX4's EKF2 has the same
-structure). Before that, on the ground and at rest, one second of samples gives tilt (accelerometer), yaw (magnetometer)
-and the barometer's zero, and the first fix gives the origin.
+An output predictor (`predictor`) carries the result to now, at the IMU's rate and inside the compiled tick, which has
+seen the filter of the tick before (PX4's EKF2 has the same structure). Before that, on the ground and at rest, one
+second of samples gives tilt (accelerometer), yaw (magnetometer) and the barometer's zero, and the first fix gives the
+origin.
 
 Height. The barometer alone gives it, so what its zero was wrong by at the start and what it has drifted since go into
 the height whole, and no other sensor can tell. The filter's own variance knows white noise only; the two others are
@@ -16,7 +17,6 @@ is what `Estimate` reports. Gates need neither: the innovation compares two heig
 """
 
 import math
-from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,9 +25,9 @@ from scipy.special import chdtri
 from fakevehicle.estimator import measurements
 from fakevehicle.estimator.eskf import ErrorStateFilter, Fusion
 from fakevehicle.estimator.measurements import Measurement
-from fakevehicle.estimator.strapdown import predict_output
+from fakevehicle.estimator.predictor import PREDICTOR, SPARE
 from fakevehicle.geodesy import to_local
-from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, ImuSample, MagSample
+from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, MagSample
 
 ALIGN_US = 1_000_000
 """How long the vehicle must stand before the filter starts [us]."""
@@ -83,8 +83,10 @@ class Estimator:
 
     Attributes
     ----------
-    out : (16,) position, velocity, q_nb, omega_b, acceleration_n at the newest IMU sample; kernels read it in place.
-    bias : (6,) gyro and accelerometer bias at the horizon; a view, or zeros before alignment.
+    predictor : (1,) of `predictor.PREDICTOR`, and the rings beside it: `imu` (n, 6) of IMU samples, `ring` (n, 10) of
+        outputs. The compiled tick writes the newest sample and output; `step` reads the samples at the horizon.
+    out : (16,) position, velocity, q_nb, omega_b, acceleration_n at the newest IMU sample; a view.
+    bias : (6,) gyro and accelerometer bias at the horizon; a view, zeros before alignment.
     fusions : what became of each sensor's newest measurement.
     """
 
@@ -92,15 +94,16 @@ class Estimator:
         self._gravity, self._field_n = gravity, field_n
         self._period_us, self._dt = period_us, period_us * 1e-6
         self._lag = max(1, round(config.gps_delay_us / period_us))
-        self._imu: FloatArray = np.zeros((self._lag + 1, 6))
-        self._ring: FloatArray = np.zeros((self._lag + 1, 10))
-        self._slot = 0
-        self._times: deque[int] = deque()
+        rows = self._lag + 1 + SPARE
+        self.predictor = np.zeros(1, PREDICTOR)
+        self.imu: FloatArray = np.zeros((rows, 6))
+        self.ring: FloatArray = np.zeros((rows, 10))
+        self._row = rows - 1
         self._waiting: list[tuple[int, int, GpsSample | BaroSample | MagSample]] = []
         self._arrivals = 0
-        self.out: FloatArray = np.zeros(16)
+        self.out: FloatArray = self.predictor["out"][0]
         self.out[6] = 1.0
-        self.bias: FloatArray = np.zeros(6)
+        self.bias: FloatArray = self.predictor["nominal"][0, 10:16]
         self.filter: ErrorStateFilter | None = None
         self.origin: Geodetic | None = None
         self.fusions: dict[str, Fusion] = {}
@@ -121,8 +124,10 @@ class Estimator:
         self._noise = np.array([config.gyro_noise, config.accel_noise, config.gyro_walk, config.accel_walk])
         self._gate = {dof: float(chdtri(dof, 1.0 - config.gate_probability)) for dof in (1, 2, 3)}
         attitude = min(1.0, 2.0 * self._dt / (config.tau_position + config.tau_velocity))
-        self._shares = np.array(
-            [min(1.0, self._dt / config.tau_position), min(1.0, self._dt / config.tau_velocity), attitude]
+        self.predictor["shares"] = (
+            min(1.0, self._dt / config.tau_position),
+            min(1.0, self._dt / config.tau_velocity),
+            attitude,
         )
 
     def add(self, sample: GpsSample | BaroSample | MagSample) -> None:
@@ -143,35 +148,22 @@ class Estimator:
             self._waiting.sort(key=lambda entry: entry[:2])
             self._arrivals += 1
 
-    def step(self, sample: ImuSample) -> None:
-        """Advance by one IMU sample: the filter at the horizon, then the output to now."""
-        self._times.append(sample.now_us)
-        if len(self._times) > self._lag + 1:
-            self._times.popleft()
-        self._slot = (self._slot + 1) % (self._lag + 1)
-        newest = self._imu[self._slot]
-        newest[:3], newest[3:] = sample.omega_b, sample.specific_force_b
+    def step(self, now_us: int) -> None:
+        """Move the filter on by one IMU sample, the one at its horizon; the newest, of `now_us`, is in the ring."""
+        rows = len(self.imu)
+        self._row = self._row + 1 if self._row + 1 < rows else 0
         if self.filter is None:
-            self._align(newest)
+            self._align(self.imu[self._row], now_us)
             return
-        delayed = (self._slot + 1) % (self._lag + 1)  # the oldest of the ring
-        horizon_us = self._times[0]
-        self.filter.carry(self._imu[delayed], self._dt, self._noise)
+        horizon = self._row - self._lag
+        horizon_us = now_us - self._lag * self._period_us
+        predictor = self.predictor[0]
+        predictor["horizon"], predictor["moved"] = horizon % rows, 1
+        self.filter.carry(self.imu[horizon], self._dt, self._noise)
         while self._waiting and self._waiting[0][0] <= horizon_us + self._period_us // 2:
             true_us, _, waiting = self._waiting.pop(0)
             if true_us > horizon_us - self._period_us:
-                self._fuse(waiting, sample.now_us)
-        predict_output(
-            self.out,
-            self._ring,
-            self._slot,
-            delayed,
-            newest,
-            self.filter.nominal,
-            self._dt,
-            self._gravity,
-            self._shares,
-        )
+                self._fuse(waiting, now_us)
 
     def _fuse(self, sample: GpsSample | BaroSample | MagSample, now_us: int) -> None:
         assert self.filter is not None
@@ -196,7 +188,7 @@ class Estimator:
                 self._since_us[fusion.sensor] = now_us
             self._accepted_us[fusion.sensor] = now_us
 
-    def _align(self, newest: FloatArray) -> None:
+    def _align(self, newest: FloatArray, now_us: int) -> None:
         """Collect a second at rest, then start the filter level, pointing where the magnetometer says."""
         self._still.append(newest.copy())
         enough = len(self._still) * self._period_us >= ALIGN_US
@@ -226,12 +218,14 @@ class Estimator:
         sigma = np.repeat([tilt, 0.1, config.gps_position, config.gyro_bias, config.accel_bias], 3)
         sigma[2], sigma[8] = heading, config.baro
         self.filter = ErrorStateFilter(nominal, sigma, self._gravity)
-        self.bias = self.filter.nominal[10:16]
+        self.filter.nominal = self.predictor["nominal"][0]  # where the compiled tick reads it
+        self.filter.nominal[:] = nominal
+        self.predictor["running"] = 1
         self.out[:10] = nominal[:10]
-        self._ring[:] = self.out[:10]
-        self._imu[:] = newest
+        self.ring[:] = self.out[:10]
+        self.imu[:] = newest
         self._height_zero = float(np.mean(self._still_baro))
-        self._zero_samples, self._zero_us = len(self._still_baro), self._times[-1]
+        self._zero_samples, self._zero_us = len(self._still_baro), now_us
 
     def _fresh(self, sensor: str, now_us: int) -> bool:
         accepted = self._accepted_us.get(sensor)

@@ -5,12 +5,13 @@
 State x (17,): position_n 0:3, velocity_n 3:6, q_nb (wxyz) 6:10, omega_b 10:13, rotor speeds Omega 13:17.
 
     p' = v                          v' = g e3 + R f / m
-    q' = 1/2 q * [0, omega]         Omega_i' = (Omega_c,i - Omega_i) / tau_up|down
+    q' = 1/2 q * [0, omega]         Omega_i' = (sag Omega_c,i - Omega_i) / tau_up|down
     J omega' = M - omega x (J omega + h e3) - h' e3,        h = sum J_r s_i Omega_i
 
-with f and M the forces and torques of rotors, body drag and ground in the body frame. This is the Newton-Euler form
-with body rates (e.g. Mahony, Kumar & Corke 2012, eq. 1-8). The paper's equations 24 to 26 print U2..U4 with one sign
-pattern (rank 2), give thrust and gravity one sign in z, and use Euler rates for body rates; they are not used.
+with sag the battery's voltage over the one the motors' full speed belongs to, and f and M the forces and torques of
+rotors, body drag and ground in the body frame. This is the Newton-Euler form with body rates (e.g. Mahony, Kumar &
+Corke 2012, eq. 1-8). The paper's equations 24 to 26 print U2..U4 with one sign pattern (rank 2), give thrust and
+gravity one sign in z, and use Euler rates for body rates; they are not used.
 """
 
 import math
@@ -72,7 +73,7 @@ def derivative(x, command, wind_n, anchor, body, dx):
     dx[9] = 0.5 * (qw * wz + qx * wy - qy * wx)
     h, h_dot = 0.0, 0.0
     for i in range(4):
-        rise = command[i] - x[13 + i]
+        rise = body.sag * command[i] - x[13 + i]
         dx[13 + i] = rise / (body.tau_up if rise > 0.0 else body.tau_down)
         h += body.rotor_inertia * body.spin[i] * x[13 + i]
         h_dot += body.rotor_inertia * body.spin[i] * dx[13 + i]

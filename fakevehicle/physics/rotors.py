@@ -2,8 +2,10 @@
 # kernels: numba types them by their arguments, which the docstrings name
 """Rotor forces and torques in the body frame.
 
-    f_i = -k G Omega_i^2 e3 - c_d Omega_i v_perp,i          v_perp,i: in-plane part of v_air + omega x r_i
-    M   = sum r_i x f_i - sum s_i kappa k G Omega_i^2 e3
+    f_i = a_i (-k G Omega_i^2 e3 - c_d Omega_i v_perp,i)    v_perp,i: in-plane part of v_air + omega x r_i
+    M   = sum r_i x f_i - sum s_i kappa a_i k G Omega_i^2 e3
+
+a_i is what is left of a rotor, 1 of a whole one: a torn blade gives less of everything.
 
 G is the ground effect of Cheeseman & Bennett (1955), 1/(1 - (R/4z)^2), z the rotor's height, clipped at z = R/2.
 """
@@ -33,9 +35,11 @@ def add_rotors(x, u, v, w, body):
     for i in range(4):
         speed = x[13 + i]
         rx, ry, rz = body.rotor_position[i, 0], body.rotor_position[i, 1], body.rotor_position[i, 2]
-        thrust = k * speed * speed
-        gx = -body.c_d * speed * (u + wy * rz - wz * ry)
-        gy = -body.c_d * speed * (v + wz * rx - wx * rz)
+        left = body.effect[i]
+        thrust = left * k * speed * speed
+        drag = left * body.c_d * speed
+        gx = -drag * (u + wy * rz - wz * ry)
+        gy = -drag * (v + wz * rx - wx * rz)
         gz = -thrust
         fx += gx
         fy += gy

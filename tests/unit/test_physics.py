@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from numba import njit
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
@@ -12,7 +13,7 @@ from fakevehicle.control.allocation import allocate
 from fakevehicle.errors import AirframeError
 from fakevehicle.physics.dynamics import STATE, derivative, step
 from fakevehicle.physics.ground import settle
-from fakevehicle.physics.wind import gust_step
+from fakevehicle.physics.wind import Gust, gust_table, scheduled, turbulence
 from fakevehicle.vocabulary import FloatArray
 
 X500 = load_airframe("x500")
@@ -211,19 +212,109 @@ def test_a_fall_from_a_metre_ends_upright_at_rest() -> None:
     assert x[6] > 0.99
 
 
-@pytest.mark.parametrize("dt", [0.004, 0.1])
-def test_turbulence_has_the_standards_variance_whatever_the_step(dt: float) -> None:
-    rng, gust = np.random.default_rng(5), np.zeros(3)
-    speed, height, strength = 8.0, 10.0, 9.0
-    n = round(4000.0 / dt) if dt > 0.05 else 200_000
-    draws, seen = rng.standard_normal((n, 3)), np.zeros((n, 3))
+def sigmas(strength: float, height: float) -> FloatArray:
+    """Standard deviations of u, v, w that MIL-F-8785C gives below 1000 ft."""
+    feet = height / 0.3048
+    w = 0.1 * strength
+    u = w / (0.177 + 0.000823 * feet) ** 0.4
+    return np.array([u, u, w])
+
+
+@njit(cache=False)  # type: ignore[untyped-decorator]
+def _blown(rng: np.random.Generator, dt: float, n: int, every: int) -> FloatArray:
+    """Every so many of `n` samples of the turbulence 3 m over ground at 20 m/s."""
+    state, noise, seen = np.zeros(5), np.zeros(5), np.zeros((n // every, 3))
     for k in range(n):
-        gust_step(gust, strength, height, speed, dt, draws[k])
-        seen[k] = gust
-    feet = height * 3.280839895
-    sigma_w = 0.1 * strength
-    sigma_u = sigma_w / (0.177 + 0.000823 * feet) ** 0.4
-    np.testing.assert_allclose(seen.std(axis=0), [sigma_u, sigma_u, sigma_w], rtol=0.25)
+        for i in range(5):
+            noise[i] = rng.standard_normal()
+        u, v, w = turbulence(state, 10.0, 3.0, 20.0, dt, noise)
+        if k % every == 0:
+            seen[k // every] = u, v, w
+    return seen
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("dt", [0.001, 0.002, 0.005, 0.01])
+def test_turbulence_has_the_standards_variance_whatever_the_step(dt: float) -> None:
+    # L_u / V = 1 s at 3 m and 20 m/s: a variance known to 5 % at four sigma needs 2 (4 / 0.05)^2 = 12800 of them
+    seen = _blown(np.random.default_rng(7), dt, round(14_000.0 / dt), round(0.05 / dt))
+    np.testing.assert_allclose(seen.var(axis=0), sigmas(10.0, 3.0) ** 2, rtol=0.05)
+
+
+def test_a_step_of_turbulence_keeps_its_stationary_covariance_exactly() -> None:
+    # P = Phi P Phi^T + Q from the kernel's own response to unit states and unit draws, for the states' P of the theory
+    P = np.zeros((5, 5))
+    P[0, 0] = 1.0
+    for i in (1, 3):
+        P[i : i + 2, i : i + 2] = [[0.5, 0.25], [0.25, 0.25]]
+    for dt in (0.001, 0.002, 0.005, 0.01, 0.1, 1.0):
+        Phi, G = np.zeros((5, 5)), np.zeros((5, 5))
+        for i in range(5):
+            for matrix, state, noise in ((Phi, np.eye(5)[i], np.zeros(5)), (G, np.zeros(5), np.eye(5)[i])):
+                turbulence(state, 9.0, 10.0, 8.0, dt, noise)
+                matrix[:, i] = state
+        np.testing.assert_allclose(Phi @ P @ Phi.T + G @ G.T, P, atol=1e-12)
+
+
+def test_turbulence_has_the_standards_spectrum() -> None:
+    # the response of the discrete filter to one unit draw, against |H|^2 of the forming filters far below 1/dt
+    dt, n, speed, height = 0.002, 60_000, 20.0, 3.0
+    feet = height / 0.3048
+    shape = 0.177 + 0.000823 * feet
+    s = 2j * np.pi * np.array([0.02, 0.1, 0.3, 1.0, 3.0])
+    k = np.arange(n)
+    for axis, first in ((0, 0), (1, 1), (2, 3)):
+        response = np.zeros((2, n))
+        for draw in range(1 if axis == 0 else 2):
+            state, noise = np.zeros(5), np.zeros(5)
+            noise[first + draw] = 1.0
+            for j in range(n):
+                response[draw, j] = turbulence(state, 10.0, height, speed, dt, noise)[axis]
+                noise[:] = 0.0
+        T = height / (shape**1.2 if axis < 2 else 1.0) / speed
+        wanted = sigmas(10.0, height)[axis] ** 2 * T / np.abs(1 + T * s) ** 2
+        wanted = 2.0 * wanted if axis == 0 else wanted * np.abs((1 + 3**0.5 * T * s) / (1 + T * s)) ** 2
+        found = [dt * sum(abs(np.sum(r * np.exp(-w * k * dt))) ** 2 for r in response) for w in s]
+        np.testing.assert_allclose(found, wanted, rtol=0.01)
+
+
+def test_a_scheduled_gust_rises_holds_and_falls() -> None:
+    table = gust_table((Gust(2_000_000, 1.0, 3.0, np.array([4.0, 0.0, -1.0])), Gust(3_000_000, 0.0, 1.0, np.ones(3))))
+    seen = {}
+    for now in (1.9, 2.5, 2.75, 3.5, 5.9, 6.5, 7.1):
+        wind = np.array([1.0, 2.0, 0.0])
+        scheduled(table, now, wind)
+        seen[now] = (wind - [1.0, 2.0, 0.0]).tolist()
+    assert seen[1.9] == seen[7.1] == [0.0, 0.0, 0.0]
+    assert seen[2.5] == pytest.approx([2.0, 0.0, -0.5])
+    assert seen[6.5] == pytest.approx([2.0, 0.0, -0.5])
+    assert seen[2.75][0] == pytest.approx(4.0 * math.sin(0.375 * math.pi) ** 2)
+    assert seen[3.5] == pytest.approx([5.0, 1.0, 0.0])
+    assert seen[5.9] == [4.0, 0.0, -1.0]
+    with pytest.raises(ValueError, match="gust"):
+        Gust(0, -1.0, 0.0, np.zeros(3))
+
+
+def test_a_torn_rotor_gives_its_share_of_thrust_and_torque() -> None:
+    body, anchor = X500.record()[0], np.zeros((4, 3))
+    whole, torn = np.zeros(STATE), np.zeros(STATE)
+    derivative(at(speed=600.0), np.full(4, 600.0), CALM, anchor, body, whole)
+    body["effect"][2] = 0.65
+    derivative(at(speed=600.0), np.full(4, 600.0), CALM, anchor, body, torn)
+    lost = 0.35 * X500.thrust_coefficient * 600.0**2
+    x, y, _ = X500.rotors[2].position_b
+    assert (torn - whole)[5] == pytest.approx(lost / X500.mass)
+    inertia = np.array(X500.inertia)
+    torque = [lost * y, -lost * x, X500.rotors[2].spin * X500.moment_ratio * lost]
+    np.testing.assert_allclose((torn - whole)[10:13] * inertia, torque, rtol=1e-8)
+
+
+def test_motors_on_a_flat_battery_stop_short_of_the_speed_they_are_asked_for() -> None:
+    body, work, x = X500.record()[0], np.zeros((6, STATE)), at()
+    body["sag"] = 0.9
+    for _ in range(300):
+        step(x, np.full(4, 800.0), CALM, np.zeros((4, 3)), body, 0.001, work)
+    np.testing.assert_allclose(x[13:17], 720.0, rtol=1e-6)
 
 
 def test_a_bad_airframe_file_is_one_clear_error(tmp_path) -> None:  # type: ignore[no-untyped-def]
