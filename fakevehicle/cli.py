@@ -5,6 +5,8 @@ import math
 import signal
 import sys
 import time
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Annotated, NoReturn
 
 import numpy as np
@@ -14,10 +16,13 @@ from rich.table import Table
 
 from fakevehicle.airframe import load_airframe
 from fakevehicle.config import MAX_LINKS, LinkConfig, VehicleConfig
-from fakevehicle.driver import PX4_LINKS, DriverCounters, LinkPlan, open_links, run
+from fakevehicle.driver import DriverCounters, LinkPlan, Seat, open_links, px4_links, run
 from fakevehicle.errors import AirframeError, VehicleError
+from fakevehicle.geodesy import to_geodetic
+from fakevehicle.recordings import FlightLog, Folder
 from fakevehicle.vehicle import PARAMETERS, TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
+from logs.errors import RecordingError
 from wire.endpoint import Endpoint
 from wire.errors import EndpointError, LinkError
 from wire.udp import UdpLink
@@ -29,6 +34,9 @@ STRONGEST_WIND = 60.0
 """Of --wind [m/s]; a hurricane."""
 SLOWEST, FASTEST = 0.01, 1000.0
 """Of --speed; how fast it really gets is the machine's to say."""
+MOST_VEHICLES = 100
+SPACING = 3.0
+"""Several vehicles stand in a row to the east, this far apart [m]."""
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
@@ -56,6 +64,16 @@ def fly(
     speed: Annotated[
         float, typer.Option(help="Simulated seconds in one second; a companion in real time needs 1.")
     ] = 1.0,
+    count: Annotated[
+        int, typer.Option(help="How many vehicles: system ids, ports and seeds count up, 3 m apart to the east.")
+    ] = 1,
+    instance: Annotated[
+        int, typer.Option(help="Number of the first one, as PX4 counts them: system id instance + 1, ports + instance.")
+    ] = 0,
+    record: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Record everything and the truth (MCAP); also offered as logs."),
+    ] = None,
     list_params: Annotated[
         bool, typer.Option("--list-params", help="Print every parameter with range, unit and meaning, and end.")
     ] = False,
@@ -67,87 +85,129 @@ def fly(
     if list_params:
         _list_parameters()
         return
+    started_s = time.time()
     try:
-        plans = _plans(connect or [])
+        if not 1 <= count <= MOST_VEHICLES:
+            raise ValueError(f"--count {count}: expected 1 to {MOST_VEHICLES}")
+        if not 0 <= instance <= 255 - count:
+            raise ValueError(f"--instance {instance}: expected 0 to {255 - count}")
         if not SLOWEST <= speed <= FASTEST:
             raise ValueError(f"--speed {speed:g}: expected {SLOWEST:g} to {FASTEST:g}")
         place, heading = _home(home)
-        config = VehicleConfig(
-            airframe=airframe,
-            home=place,
-            heading=heading,
-            wind_n=_wind(wind),
-            seed=seed,
-            links=tuple(LinkConfig(plan.name, plan.profile) for plan in plans),
-            start_unix_us=time.time_ns() // 1000,
-        )
         parameters = dict(_parameter(text) for text in param or [])
         load_airframe(airframe)
+        crew: list[_Plan] = []
+        for i in range(count):
+            plans = _plans(connect or [], instance + i, i)
+            config = VehicleConfig(
+                airframe=airframe,
+                home=to_geodetic(np.array([0.0, SPACING * i, 0.0]), place) if i else place,
+                heading=heading,
+                wind_n=_wind(wind),
+                seed=seed + i,
+                links=tuple(LinkConfig(plan.name, plan.profile) for plan in plans),
+                system_id=instance + i + 1,
+                start_unix_us=round(started_s * 1e6),
+                instance=instance + i,
+            )
+            folder = record if record is None or count == 1 else record / str(config.system_id)
+            crew.append(_Plan(config, parameters, plans, folder))
     except AirframeError as error:
         _fail(f"--airframe {airframe}: {error}", 2)
     except (ValueError, EndpointError) as error:
         _fail(str(error), 2)
+    links: list[dict[str, UdpLink]] = []
     try:
-        links = open_links(plans)
-    except LinkError as error:
-        _fail(str(error), 1)
-    try:
-        counters = _fly(config, parameters, plans, links, speed)
-    except VehicleError as error:
+        for one in crew:
+            links.append(open_links(one.links))
+        counters = _fly(crew, links, speed, started_s)
+    except (LinkError, RecordingError, VehicleError) as error:
         _fail(str(error), 1)
     finally:
-        for link in links.values():
-            link.close()
+        for opened in links:
+            for link in opened.values():
+                link.close()
     late = f", {counters.late} late" if counters.late else ""
     slipped = f", {counters.slipped_s:.2f} s slower than asked" if counters.slipped_s else ""
     _say(f"stopped after {counters.ticks * TICK_US * 1e-6:.1f} s ({counters.ticks} ticks{late}{slipped})")
 
 
-def _fly(
-    config: VehicleConfig,
-    parameters: dict[str, float],
-    plans: list[LinkPlan],
-    links: dict[str, UdpLink],
-    speed: float,
-) -> DriverCounters:
-    """Warm up, say that it is ready, and run until a signal."""
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """One vehicle before anything of it is open."""
+
+    config: VehicleConfig
+    parameters: dict[str, float]
+    links: list[LinkPlan]
+    folder: Path | None
+
+
+def _fly(crew: list[_Plan], links: list[dict[str, UdpLink]], speed: float, started_s: float) -> DriverCounters:
+    """Warm up, say that all are ready, and run until a signal."""
     signals: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _frame: signals.append(number))
     began = time.monotonic()
     with Console(stderr=True).status("compiling the flight code (the first time takes a while)"):
-        rehearsal = Vehicle(config, parameters)
+        rehearsal = Vehicle(crew[0].config, crew[0].parameters)
         for tick in range(REHEARSAL_TICKS):
             if signals:
                 return DriverCounters()
             rehearsal.step(tick * TICK_US, [])
-        vehicle = Vehicle(config, parameters)
-    where = ", ".join(f"{plan.name} {_route(plan, links[plan.name])}" for plan in plans)
-    h = config.home
-    place = f"{math.degrees(h.latitude):.7f},{math.degrees(h.longitude):.7f},{h.altitude:g} m"
-    _say(f"ready in {time.monotonic() - began:.1f} s: system {config.system_id}, home {place}; links: {where}")
+    seats: list[Seat] = []
+    try:
+        for one, opened in zip(crew, links, strict=True):
+            seats.append(_seat(one, opened, started_s, f"{one.config.system_id}: " if len(crew) > 1 else ""))
+        for one, seat in zip(crew, seats, strict=True):
+            where = ", ".join(f"{plan.name} {_route(plan, seat.links[plan.name])}" for plan in one.links)
+            h = one.config.home
+            place = f"{math.degrees(h.latitude):.7f},{math.degrees(h.longitude):.7f},{h.altitude:g} m"
+            into = f"; recording: {seat.log.path}" if seat.log is not None else ""
+            _say(
+                f"ready in {time.monotonic() - began:.1f} s: "
+                f"system {one.config.system_id}, home {place}; links: {where}{into}"
+            )
+        return run(seats, speed=speed, stopped=lambda: bool(signals))
+    finally:
+        for seat in seats:
+            if seat.log is not None:
+                seat.log.close()
+
+
+def _seat(one: _Plan, links: dict[str, UdpLink], started_s: float, name: str) -> Seat:
+    """A vehicle in its seat; what it says and does is printed, behind `name`."""
+    files = log = None
+    if one.folder is not None:
+        files = Folder(one.folder)
+        log = FlightLog(one.folder, one.config, one.parameters, started_unix_s=started_s)
+    vehicle = Vehicle(one.config, one.parameters, files)
     flying = vehicle.flying
     shown = (flying.mode, flying.armed)
 
     def watch(now_us: int) -> None:
         nonlocal shown
         for text in vehicle.take_texts():
-            _say(f"[{now_us * 1e-6:9.3f}] {text}")
+            _say(f"[{now_us * 1e-6:9.3f}] {name}{text}")
         if (flying.mode, flying.armed) != shown:
             shown = (flying.mode, flying.armed)
-            _say(f"[{now_us * 1e-6:9.3f}] {flying.mode.title}, {'armed' if flying.armed else 'disarmed'}")
+            _say(f"[{now_us * 1e-6:9.3f}] {name}{flying.mode.title}, {'armed' if flying.armed else 'disarmed'}")
 
-    return run(vehicle, links, speed=speed, stopped=lambda: bool(signals), watch=watch)
+    return Seat(vehicle, links, watch, log)
 
 
-def _plans(urls: list[str]) -> list[LinkPlan]:
-    """The links to open: PX4's own two, or one for each URL."""
+def _plans(urls: list[str], instance: int, number: int) -> list[LinkPlan]:
+    """The links to open: PX4's own two, or one for each URL.
+
+    Of several vehicles each listens on a port of its own, counting up from the URL's; all call the same one.
+    """
     if not urls:
-        return list(PX4_LINKS)
+        return list(px4_links(instance))
     if len(urls) > MAX_LINKS:
         raise ValueError(f"{len(urls)} times --connect: expected at most {MAX_LINKS}")
     names = ["onboard"] + [f"onboard{i}" for i in range(2, len(urls) + 1)]
-    return [LinkPlan(name, "onboard", Endpoint.parse(url)) for name, url in zip(names, urls, strict=True)]
+    ends = [Endpoint.parse(url) for url in urls]
+    moved = [replace(end, port=end.port + number) if end.kind == "udpin" and end.port else end for end in ends]
+    return [LinkPlan(name, "onboard", end) for name, end in zip(names, moved, strict=True)]
 
 
 def _numbers(option: str, text: str, names: str) -> list[float]:

@@ -1,17 +1,21 @@
-"""Runs a vehicle against real sockets and the monotonic clock, in one thread.
+"""Runs vehicles against real sockets and the monotonic clock, in one thread.
 
 Every tick has an absolute deadline, `deadline += period`. When the process was held up, the missed ticks are run at
 once, one after the other, each with what has arrived by then: a simulator must not lose simulated time. That burst is
 bounded: what lies more than `MAX_BACKLOG_S` of wall time behind is never caught up, the deadlines are moved instead,
 and simulated time stays behind the wall clock from there on. Late ticks and that slip are counted.
+
+Several vehicles share the thread and the clock: all of them step in every tick. Sleeping and looking at the sockets is
+paid once a tick, whatever the number of vehicles and links.
 """
 
 import gc
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from fakevehicle.config import Profile
+from fakevehicle.recordings import TRUTH_US, FlightLog
 from fakevehicle.vehicle import TICK_US, Vehicle
 from wire.datagram import Address, Datagram
 from wire.endpoint import Endpoint
@@ -39,11 +43,28 @@ class LinkPlan:
     local: Address | None = None
 
 
-PX4_LINKS = (
-    LinkPlan("gcs", "gcs", Endpoint("udpout", "127.0.0.1", 14550), ("127.0.0.1", 18570)),
-    LinkPlan("onboard", "onboard", Endpoint("udpout", "127.0.0.1", 14540), ("127.0.0.1", 14580)),
-)
-"""The ports of PX4's first instance: it sends unsolicited to both."""
+PX4_GCS, PX4_OFFBOARD = (14550, 18570), (14540, 14580)
+"""Ports of PX4's first instance, called and own: it sends unsolicited to both."""
+PX4_LAST_OWN_PORT = 9
+"""Instances behind this one all call its companion's port, 14549, so that none calls the ground station's."""
+
+
+def px4_links(instance: int) -> tuple[LinkPlan, ...]:
+    """The links of PX4's instance `instance`, from 0: all call one ground station, each its own companion.
+
+    18570+i -> 14550 and 14580+i -> 14540+i, as PX4's start script has them (ROMFS/.../px4-rc.mavlink).
+    """
+    (gcs, gcs_local), (offboard, offboard_local) = PX4_GCS, PX4_OFFBOARD
+    host = "127.0.0.1"
+    return (
+        LinkPlan("gcs", "gcs", Endpoint("udpout", host, gcs), (host, gcs_local + instance)),
+        LinkPlan(
+            "onboard",
+            "onboard",
+            Endpoint("udpout", host, offboard + min(instance, PX4_LAST_OWN_PORT)),
+            (host, offboard_local + instance),
+        ),
+    )
 
 
 @dataclass(slots=True)
@@ -60,6 +81,39 @@ class DriverCounters:
     ticks: int = 0
     late: int = 0
     slipped_s: float = 0.0
+
+
+@dataclass(slots=True)
+class Seat:
+    """One vehicle with its open sockets.
+
+    Attributes
+    ----------
+    vehicle : a fresh one; its time starts at zero.
+    links : by the vehicle's link names.
+    watch : called after every tick with its now_us, to log what happened.
+    log : what it is recorded into; None: it is not.
+    """
+
+    vehicle: Vehicle
+    links: dict[str, UdpLink]
+    watch: Callable[[int], None]
+    log: FlightLog | None = None
+
+    def step(self, now_us: int, ready: Collection[UdpLink]) -> None:
+        """One tick: take, step, send, record."""
+        inputs: list[Datagram] = []
+        if ready:
+            for name, link in self.links.items():
+                if link in ready:
+                    inputs += [Datagram(name, received.data, received.peer) for received in link.receive()]
+        outputs = self.vehicle.step(now_us, inputs)
+        for datagram in outputs:
+            self.links[datagram.link].send(datagram)
+        if self.log is not None:
+            truth = self.vehicle.truth if now_us % TRUTH_US == 0 else None
+            self.log.tick(now_us, inputs, outputs, truth)
+        self.watch(now_us)
 
 
 def open_links(plans: Sequence[LinkPlan]) -> dict[str, UdpLink]:
@@ -80,48 +134,37 @@ def open_links(plans: Sequence[LinkPlan]) -> dict[str, UdpLink]:
     return links
 
 
-def run(
-    vehicle: Vehicle,
-    links: dict[str, UdpLink],
-    *,
-    speed: float,
-    stopped: Callable[[], bool],
-    watch: Callable[[int], None],
-) -> DriverCounters:
+def run(seats: Sequence[Seat], *, speed: float, stopped: Callable[[], bool]) -> DriverCounters:
     """Fly until `stopped` says so.
 
     Parameters
     ----------
-    vehicle : a fresh one; its time starts at zero.
-    links : open sockets, by the vehicle's link names.
+    seats : the vehicles; they step in this order.
     speed : simulated seconds in one second of wall time, > 0.
     stopped : asked before every tick.
-    watch : called after every tick with its now_us, to log what happened.
     """
     counters = DriverCounters()
     period_s = TICK_US * 1e-6 / speed
     now_us = 0
+    every_link = [link for seat in seats for link in seat.links.values()]
     gc.collect()
     gc.freeze()  # what exists now stays; collections in flight need not look at it
     deadline_s = time.monotonic()
     while not stopped():
         behind_s = time.monotonic() - deadline_s
         if behind_s < -LONGEST_SLEEP_S:
-            wait((), LONGEST_SLEEP_S)
+            time.sleep(LONGEST_SLEEP_S)
             continue
         if behind_s < 0.0:
-            wait((), -behind_s)
+            time.sleep(-behind_s)
         elif behind_s > period_s:
             counters.late += 1
             if behind_s > MAX_BACKLOG_S:
                 counters.slipped_s += behind_s - MAX_BACKLOG_S
                 deadline_s += behind_s - MAX_BACKLOG_S
-        inputs = [
-            Datagram(name, received.data, received.peer) for name, link in links.items() for received in link.receive()
-        ]
-        for datagram in vehicle.step(now_us, inputs):
-            links[datagram.link].send(datagram)
-        watch(now_us)
+        ready = frozenset(wait(every_link, 0.0))
+        for seat in seats:
+            seat.step(now_us, ready)
         counters.ticks += 1
         now_us += TICK_US
         deadline_s += period_s

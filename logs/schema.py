@@ -1,4 +1,4 @@
-"""Our own records: what a companion core takes and gives, as protobuf messages.
+"""Our own records, as protobuf messages: what a companion core takes and gives, and what a simulator knows.
 
 Every record is a frozen dataclass, and the protobuf schema is read off its fields, so there is one statement of each:
 
@@ -93,10 +93,24 @@ class Reference:
     yaw: float
 
 
-Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """What the simulator's physics knew: NED from home [m], [m/s], [m/s^2]; wxyz; body rates and rotors [rad/s]."""
+
+    position_n: tuple[float, ...]
+    velocity_n: tuple[float, ...]
+    acceleration_n: tuple[float, ...]
+    q_nb: tuple[float, ...]
+    omega_b: tuple[float, ...]
+    rotor_speed: tuple[float, ...]
+    wind_n: tuple[float, ...]
+    on_ground: bool = False
+
+
+Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference | Truth
 RecordT = TypeVar("RecordT", bound=Record)
 
-RECORDS: tuple[type[Record], ...] = (Tick, PlanWanted, PlanReady, OperatorCommand, Note, Reference)
+RECORDS: tuple[type[Record], ...] = (Tick, PlanWanted, PlanReady, OperatorCommand, Note, Reference, Truth)
 INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand)
 OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference)
 
@@ -107,6 +121,7 @@ TOPICS: dict[type[Record], str] = {
     OperatorCommand: "/companion/operator",
     Note: "/companion/note",
     Reference: "/companion/reference",
+    Truth: "/vehicle/truth",
 }
 """Where each record is kept, unless a driver says otherwise."""
 

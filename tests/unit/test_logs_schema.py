@@ -20,6 +20,16 @@ def test_every_record_comes_back_as_it_was() -> None:
         schema.OperatorCommand(name="land"),
         schema.Note(level=4, phase="FLYING", text="späte Antwort"),
         schema.Reference(phase="", position=(1.0, 2.0, 3.0), velocity=(), acceleration=(0.1,), yaw=-3.0),
+        schema.Truth(
+            position_n=(1.0, 2.0, -3.0),
+            velocity_n=(0.0, 0.1, -0.0),
+            acceleration_n=(),
+            q_nb=(1.0, 0.0, 0.0, 0.0),
+            omega_b=(0.1, 0.2, 0.3),
+            rotor_speed=(500.0,) * 4,
+            wind_n=(8.0, 0.0, 0.0),
+            on_ground=True,
+        ),
     ]
     assert {type(record) for record in records} == set(schema.RECORDS)
     for record in records:
@@ -50,6 +60,6 @@ def test_bytes_that_are_no_record_are_a_value_error() -> None:
         schema.decode(schema.Note, b"\x0a\xff\xff")
 
 
-def test_inputs_outputs_and_the_tick_are_all_there_is() -> None:
-    assert set(schema.INPUTS) | set(schema.OUTPUTS) | {schema.Tick} == set(schema.RECORDS)
+def test_inputs_outputs_the_tick_and_truth_are_all_there_is() -> None:
+    assert set(schema.INPUTS) | set(schema.OUTPUTS) | {schema.Tick, schema.Truth} == set(schema.RECORDS)
     assert len(set(schema.TOPICS.values())) == len(schema.RECORDS) == len(schema.TOPICS)
