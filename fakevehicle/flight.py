@@ -178,6 +178,7 @@ class FlightStack:
         self._motors, self._now_us, self._estimate = motors, now_us, None
         self._ticks += 1
         self._sensors.sense(self._ticks, now_us, self._x, estimator.add)
+        estimator.flying = motors == tick.FLYING
         estimator.step(now_us)
         if now_us % BATTERY_US == 0:
             self._battery.draw(self._thrust(), armed, BATTERY_US * 1e-6)

@@ -1,9 +1,11 @@
 """The error-state Kalman filter: filterpy's extended filter carries the covariance, the nominal state stands beside it.
 
 Between measurements the error's mean is zero, so filterpy's x stays zero and only P moves. A measurement's innovation
-is handed to `update` as z with Hx = 0; what comes out in x is moved into the nominal state (`strapdown.inject`).
+is what `update` gets for its residual; what comes out in x is moved into the nominal state (`strapdown.inject`).
+Measurements of one moment go in together: one update of five rows costs what one of two rows does.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +14,9 @@ from filterpy.kalman import ExtendedKalmanFilter
 from fakevehicle.estimator.measurements import Measurement
 from fakevehicle.estimator.strapdown import ERROR, NOMINAL, inject, normalised_innovation_squared, propagate
 from fakevehicle.vocabulary import FloatArray
+
+FELT_TIME = 0.1
+"""Time constant of the smoothed specific force [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +44,8 @@ class ErrorStateFilter(ExtendedKalmanFilter):  # type: ignore[misc]  # filterpy 
 
     Attributes
     ----------
-    nominal : (16,).  P : (15, 15) covariance of the error state.
+    nominal : (16,), moved in place.  P : (15, 15) covariance of the error state.
+    felt : (7,) smoothed specific force in b and newest acceleration_n, see `strapdown.propagate`.
     """
 
     def __init__(self, nominal: FloatArray, sigma: FloatArray, gravity: float) -> None:
@@ -50,23 +56,46 @@ class ErrorStateFilter(ExtendedKalmanFilter):  # type: ignore[misc]  # filterpy 
         self.P = np.diag(sigma**2)
         self.Q = np.zeros((ERROR, ERROR))
         self.nominal = nominal.copy()
+        self.felt: FloatArray = np.zeros(7)
+        self.felt[6] = FELT_TIME
         self._gravity = gravity
         self._scratch = np.zeros((ERROR, ERROR))
 
     def predict_x(self, u: object = 0) -> None:
         """The error's mean stays zero between measurements; the nominal state moves instead."""
 
-    def carry(self, imu: FloatArray, dt: float, noise: FloatArray) -> None:
-        """Move nominal state and covariance over one IMU sample; parameters as in `strapdown.propagate`."""
-        propagate(self.nominal, imu, dt, self._gravity, noise, self.F, self.Q)
+    def carry(self, samples: FloatArray, first: int, count: int, dt: float, noise: FloatArray) -> None:
+        """Move nominal state and covariance over `count` IMU samples; parameters as in `strapdown.propagate`."""
+        propagate(self.nominal, samples, first, count, dt, self._gravity, noise, self.F, self.Q, self.felt)
         self.predict()
+
+    def weigh(self, measurement: Measurement, gate: float) -> Fusion:
+        """What a measurement is worth now; nothing changes."""
+        y = measurement.innovation
+        nis: float = normalised_innovation_squared(self.P, measurement.H, measurement.R, y)
+        return Fusion(measurement.sensor, nis, len(y), nis <= gate)
+
+    def take(self, measurements: Sequence[Measurement]) -> None:
+        """Take measurements of one moment in, together, whatever they are worth; their noises are independent."""
+        if len(measurements) == 1:
+            y, H, R = measurements[0].innovation, measurements[0].H, measurements[0].R
+        else:
+            y = np.concatenate([m.innovation for m in measurements])
+            H = np.concatenate([m.H for m in measurements])
+            R = np.diag(np.concatenate([m.R.diagonal() for m in measurements]))
+        self.update(0.0, lambda _: H, _zero, R=R, residual=lambda _z, _h: y)
+        inject(self.nominal, self.x, self.P, self._scratch)
 
     def fuse(self, measurement: Measurement, gate: float) -> Fusion:
         """Weigh a measurement and, when its NIS is below `gate`, take it in."""
-        y, H, R = measurement.innovation, measurement.H, measurement.R
-        nis: float = normalised_innovation_squared(self.P, H, R, y)
-        accepted = nis <= gate
-        if accepted:
-            self.update(y, lambda _: H, _zero, R=R)
-            inject(self.nominal, self.x, self.P, self._scratch)
-        return Fusion(measurement.sensor, nis, len(y), accepted)
+        fusion = self.weigh(measurement, gate)
+        if fusion.accepted:
+            self.take([measurement])
+        return fusion
+
+    def forget(self, states: Sequence[int], sigma: float) -> None:
+        """Know nothing of some states any more: no correlation with the others, and this 1 sigma each."""
+        for i in states:
+            self.P[i, :] = 0.0
+            self.P[:, i] = 0.0
+            self.P[i, i] = sigma**2

@@ -3,9 +3,9 @@
 Theory of operation. GPS arrives 110 ms after it was true. The filter therefore runs on a horizon that lies that far
 behind the newest IMU sample: IMU samples wait in a ring, others wait until the horizon reaches the time they were true.
 An output predictor (`predictor`) carries the result to now, at the IMU's rate and inside the compiled tick, which has
-seen the filter of the tick before (PX4's EKF2 has the same structure). Before that, on the ground and at rest, one
-second of samples gives tilt (accelerometer), yaw (magnetometer) and the barometer's zero, and the first fix gives the
-origin.
+seen the filter of the tick before (PX4's EKF2 has the same structure). The filter itself takes two IMU samples at once
+(`predict_us`), and what was true between two of its steps is moved to the later one with the velocity there. Before
+that, on the ground and at rest, `alignment` finds the start.
 
 Height. The barometer alone gives it, so what its zero was wrong by at the start and what it has drifted since go into
 the height whole, and no other sensor can tell. The filter's own variance knows white noise only; the two others are
@@ -14,61 +14,53 @@ considered, not estimated (Schmidt's consider states, in the limit of a drift mu
     var(z) = P_zz + R_baro / n + sigma_d^2 (1 - exp(-2 t / tau_d)),      n samples in the zero, t since then
 
 is what `Estimate` reports. Gates need neither: the innovation compares two heights that share both errors.
+
+When sensors fail (`aiding` has the rules). Without the barometer the height is GPS's, less what the two last differed
+by. Without GPS the velocity leans on the rotors' drag and the last known wind (`wind`), and position drifts as that is
+wrong. A fix after a silence, and a sensor refused for `reset_after_us`, are believed whatever they say; the jump this
+makes goes to the output at once and is told in `resets`, so that the loops can tell it from motion.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import chdtri
 
 from fakevehicle.estimator import measurements
+from fakevehicle.estimator.aiding import RESETTLE_US, Aid
+from fakevehicle.estimator.alignment import Alignment, Start
 from fakevehicle.estimator.eskf import ErrorStateFilter, Fusion
 from fakevehicle.estimator.measurements import Measurement
 from fakevehicle.estimator.predictor import PREDICTOR, SPARE
+from fakevehicle.estimator.settings import EstimatorConfig
+from fakevehicle.estimator.strapdown import shift_output
+from fakevehicle.estimator.wind import WindWatch
 from fakevehicle.geodesy import to_local
-from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, MagSample
+from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, MagSample, Resets
 
-ALIGN_US = 1_000_000
-"""How long the vehicle must stand before the filter starts [us]."""
-STALE_US = 2_000_000
-"""A quantity whose sensor has not been accepted for this long is no longer valid [us]."""
+MOST_WAITING = 64
+"""Samples that may wait for the horizon; the oldest goes first."""
+UNAIDED_US = 400_000
+"""The airspeed helps when GPS has not been accepted for this long [us]."""
+DRAG_US = 200_000
+"""Spacing of airspeeds [us]."""
+DIFFERENCE_SHARE = 0.01
+"""Of a new difference between GPS's height and the filter's in their mean."""
+FIELD_TOLERANCE = 0.2
+"""A field whose strength is wrong by this share is disturbed and never moves the yaw by a reset."""
+_HORIZONTAL, _DOWN, _VELOCITY, _YAW = (6, 7), (8,), (3, 4, 5), (2,)
 
 
 @dataclass(frozen=True, slots=True)
-class EstimatorConfig:
-    """What the estimator takes for true about its sensors; 1 sigma each.
+class Validity:
+    """Which quantities can be relied on."""
 
-    Attributes
-    ----------
-    gyro_noise, accel_noise : of one 250 Hz sample [rad/s], [m/s^2].
-    gyro_walk, accel_walk : of the biases' rates [rad/s^2], [m/s^3].
-    gyro_bias, accel_bias : of the biases at the start [rad/s], [m/s^2].
-    gps_position, gps_velocity, baro, mag : [m], [m/s], [m], [gauss].
-    baro_drift, baro_drift_time : the barometer's Gauss-Markov drift in the long run [m] and its time constant [s].
-    gps_delay_us : age of a fix when it arrives [us].
-    gps_settling_us : position is not called valid before GPS has been accepted for this long [us].
-    gate_probability : a true measurement passes its gate with this probability.
-    tau_position, tau_velocity : time constants of the output predictor [s].
-    """
-
-    gyro_noise: float
-    accel_noise: float
-    gyro_walk: float
-    accel_walk: float
-    gyro_bias: float
-    accel_bias: float
-    gps_position: float
-    gps_velocity: float
-    baro: float
-    baro_drift: float
-    baro_drift_time: float
-    mag: float
-    gps_delay_us: int
-    gps_settling_us: int
-    gate_probability: float
-    tau_position: float
-    tau_velocity: float
+    attitude: bool
+    velocity: bool
+    position: bool
+    altitude: bool
 
 
 class Estimator:
@@ -88,17 +80,23 @@ class Estimator:
     out : (16,) position, velocity, q_nb, omega_b, acceleration_n at the newest IMU sample; a view.
     bias : (6,) gyro and accelerometer bias at the horizon; a view, zeros before alignment.
     fusions : what became of each sensor's newest measurement.
+    resets : jumps so far, and the newest one.
+    flying : whether the motors carry it; set by the vehicle. Drag is felt and dead sensors are told only then.
+    horizon_us : the time at which the filter's nominal state and covariance are true [us].
     """
 
     def __init__(self, config: EstimatorConfig, field_n: FloatArray, gravity: float, period_us: int) -> None:
         self._gravity, self._field_n = gravity, field_n
         self._period_us, self._dt = period_us, period_us * 1e-6
         self._lag = max(1, round(config.gps_delay_us / period_us))
-        rows = self._lag + 1 + SPARE
+        self._every = min(max(1, config.predict_us // period_us), SPARE + 1)
+        self._lag_us = self._lag * period_us
+        self.horizon_us = 0
+        self._rows = self._lag + 1 + SPARE
         self.predictor = np.zeros(1, PREDICTOR)
-        self.imu: FloatArray = np.zeros((rows, 6))
-        self.ring: FloatArray = np.zeros((rows, 10))
-        self._row = rows - 1
+        self.imu: FloatArray = np.zeros((self._rows, 6))
+        self.ring: FloatArray = np.zeros((self._rows, 10))
+        self._row, self._ticks = 0, 0  # the row the compiled tick wrote last, as `predictor.newest`
         self._waiting: list[tuple[int, int, GpsSample | BaroSample | MagSample]] = []
         self._arrivals = 0
         self.out: FloatArray = self.predictor["out"][0]
@@ -107,129 +105,221 @@ class Estimator:
         self.filter: ErrorStateFilter | None = None
         self.origin: Geodetic | None = None
         self.fusions: dict[str, Fusion] = {}
-        self._accepted_us: dict[str, int] = {}
-        self._since_us: dict[str, int] = {}
+        self.resets = Resets()
+        self.flying = False
+        self._aids = {name: Aid() for name in ("gps_position", "gps_velocity", "gps_height", "baro", "mag", "imu")}
+        self._settled = False
+        self._alignment = Alignment(field_n, period_us)
         self._height_zero = 0.0
-        self._zero_samples = 1
-        self._zero_us = 0
-        self._still: list[FloatArray] = []
-        self._still_baro: list[float] = []
-        self._still_mag: list[FloatArray] = []
+        self._zero_samples, self._zero_us = 1, 0
+        self._difference = 0.0  # GPS's z less the filter's
+        self._differences = 0
+        self._wind = WindWatch()
+        self._drag_us = 0
         self._delay_us = config.gps_delay_us
         self.configure(config)
 
     def configure(self, config: EstimatorConfig) -> None:
-        """Take new noises and time constants; a new delay counts from the next start only."""
+        """Take new noises and time constants; a new delay or period counts from the next start only."""
         self._config = config
         self._noise = np.array([config.gyro_noise, config.accel_noise, config.gyro_walk, config.accel_walk])
         self._gate = {dof: float(chdtri(dof, 1.0 - config.gate_probability)) for dof in (1, 2, 3)}
-        attitude = min(1.0, 2.0 * self._dt / (config.tau_position + config.tau_velocity))
-        self.predictor["shares"] = (
-            min(1.0, self._dt / config.tau_position),
-            min(1.0, self._dt / config.tau_velocity),
-            attitude,
-        )
+        step = self._every * self._dt
+        attitude = min(1.0, 2.0 * step / (config.tau_position + config.tau_velocity))
+        self.predictor["shares"] = min(1.0, step / config.tau_position), min(1.0, step / config.tau_velocity), attitude
 
     def add(self, sample: GpsSample | BaroSample | MagSample) -> None:
         """Take in a sample that has just arrived; it is fused when the horizon reaches the time it was true."""
-        if isinstance(sample, GpsSample):
-            if self.origin is None and sample.fix_type >= 3:
-                self.origin = sample.position
-            true_us = sample.now_us - self._delay_us
-        else:
-            true_us = sample.now_us
         if self.filter is None:
-            if isinstance(sample, BaroSample):
-                self._still_baro.append(sample.altitude)
-            elif isinstance(sample, MagSample):
-                self._still_mag.append(sample.field_b)
-        else:
-            self._waiting.append((true_us, self._arrivals, sample))
-            self._waiting.sort(key=lambda entry: entry[:2])
-            self._arrivals += 1
+            self._collect(sample)
+            return
+        true_us = sample.now_us - self._delay_us if isinstance(sample, GpsSample) else sample.now_us
+        if len(self._waiting) >= MOST_WAITING:
+            self._waiting.pop(0)
+        self._waiting.append((true_us, self._arrivals, sample))
+        self._waiting.sort(key=lambda entry: entry[:2])
+        self._arrivals += 1
+
+    def _collect(self, sample: GpsSample | BaroSample | MagSample) -> None:
+        if isinstance(sample, BaroSample):
+            self._alignment.heights.append(sample.altitude)
+        elif isinstance(sample, MagSample):
+            self._alignment.fields.append(sample.field_b)
+        elif sample.fix_type >= 3:
+            self._alignment.fixes.append(sample.position)
 
     def step(self, now_us: int) -> None:
-        """Move the filter on by one IMU sample, the one at its horizon; the newest, of `now_us`, is in the ring."""
-        rows = len(self.imu)
-        self._row = self._row + 1 if self._row + 1 < rows else 0
-        if self.filter is None:
-            self._align(self.imu[self._row], now_us)
+        """Note an IMU sample, the one of `now_us` that is in the ring; every `predict_us` move the filter on."""
+        self._row = self._row + 1 if self._row + 1 < self._rows else 0
+        filter_ = self.filter
+        if filter_ is None:
+            start = self._alignment.step(self.imu[self._row])
+            if start is not None:
+                self._begin(start, now_us)
+            return
+        self._ticks += 1
+        if self._ticks % self._every:
             return
         horizon = self._row - self._lag
-        horizon_us = now_us - self._lag * self._period_us
+        filter_.carry(self.imu, (horizon - self._every + 1) % self._rows, self._every, self._dt, self._noise)
+        self.horizon_us = horizon_us = now_us - self._lag_us
+        if self._waiting and self._waiting[0][0] <= horizon_us:
+            self._fuse_due(horizon_us, now_us)
+        if self.flying and horizon_us - self._drag_us >= DRAG_US:
+            self._drag_us = horizon_us
+            self._lean_on_drag(now_us)
+            self._watch_imu(now_us)
         predictor = self.predictor[0]
-        predictor["horizon"], predictor["moved"] = horizon % rows, 1
-        self.filter.carry(self.imu[horizon], self._dt, self._noise)
-        while self._waiting and self._waiting[0][0] <= horizon_us + self._period_us // 2:
-            true_us, _, waiting = self._waiting.pop(0)
-            if true_us > horizon_us - self._period_us:
-                self._fuse(waiting, now_us)
+        predictor["horizon"], predictor["moved"] = horizon % self._rows, 1
 
-    def _fuse(self, sample: GpsSample | BaroSample | MagSample, now_us: int) -> None:
-        assert self.filter is not None
-        nominal, config = self.filter.nominal, self._config
-        if isinstance(sample, GpsSample):
-            if sample.fix_type < 3 or self.origin is None:
-                return
-            self._weigh(measurements.gps_velocity(nominal, sample.velocity_n, config.gps_velocity), now_us)
-            place = to_local(sample.position, self.origin)
-            self._weigh(measurements.gps_position(nominal, place, config.gps_position), now_us)
-        elif isinstance(sample, BaroSample):
-            self._weigh(measurements.baro(nominal, sample.altitude - self._height_zero, config.baro), now_us)
-        else:
-            self._weigh(measurements.magnetometer(nominal, sample.field_b, self._field_n, config.mag), now_us)
+    def _watch_imu(self, now_us: int) -> None:
+        """In flight an IMU that says the same as its last sample and the one before is dead."""
+        newest, before = self.imu[self._row], self.imu[self._row - 1]
+        if not ((newest[:3] == before[:3]).all() or (newest[3:] == before[3:]).all()):
+            self._aids["imu"].accept(now_us)
 
-    def _weigh(self, measurement: Measurement, now_us: int) -> None:
+    # What the sensors say
+
+    def _fuse_due(self, horizon_us: int, now_us: int) -> None:
+        """Fuse what has been waiting for the horizon; what is of one moment goes in together."""
         assert self.filter is not None
-        fusion = self.filter.fuse(measurement, self._gate[len(measurement.innovation)])
+        group: list[Measurement] = []
+        group_us = self._waiting[0][0]
+        while self._waiting and self._waiting[0][0] <= horizon_us:
+            true_us, _, sample = self._waiting.pop(0)
+            if true_us != group_us and group:
+                self.filter.take(group)
+                group = []
+            group_us = true_us
+            if isinstance(sample, GpsSample):
+                group += self._gps(sample, (horizon_us - true_us) * 1e-6, now_us)
+            elif isinstance(sample, BaroSample):
+                group += self._baro(sample, now_us)
+            else:
+                group += self._mag(sample, now_us)
+        if group:
+            self.filter.take(group)
+
+    def _gps(self, fix: GpsSample, late_s: float, now_us: int) -> list[Measurement]:
+        """The parts of a fix that are to be taken in; it was true `late_s` before the horizon and is moved there."""
+        if fix.fix_type < 3 or self.origin is None or self._dead("gps_velocity", fix.velocity_n.tobytes(), now_us):
+            return []
+        assert self.filter is not None
+        config, nominal = self._config, self.filter.nominal
+        velocity = fix.velocity_n + late_s * self.filter.felt[3:6]
+        place = to_local(fix.position, self.origin) + late_s * nominal[3:6]
+        returns = self._aids["gps_velocity"].returns(now_us)
+        fast = self._weigh(
+            lambda: measurements.gps_velocity(nominal, velocity, config.gps_velocity), _VELOCITY, now_us, returns
+        )
+        near = self._weigh(
+            lambda: measurements.gps_position(nominal, place, config.gps_position), _HORIZONTAL, now_us, returns
+        )
+        taken = fast + near
+        if self._aids["baro"].fresh(now_us):
+            self._differences += 1
+            share = max(DIFFERENCE_SHARE, 1.0 / self._differences)
+            self._difference += share * (float(place[2] - nominal[2]) - self._difference)
+        elif self._differences:
+            z = float(place[2]) - self._difference
+            taken += self._weigh(lambda: measurements.gps_height(nominal, z, config.gps_position), _DOWN, now_us)
+        if fast and self.flying and config.drag > 0.0:
+            self._wind.note(nominal, self.filter.felt, config.drag)
+        return taken
+
+    def _baro(self, sample: BaroSample, now_us: int) -> list[Measurement]:
+        if self._dead("baro", np.float64(sample.altitude).tobytes(), now_us):
+            return []
+        assert self.filter is not None
+        nominal, height = self.filter.nominal, sample.altitude - self._height_zero
+        return self._weigh(lambda: measurements.baro(nominal, height, self._config.baro), _DOWN, now_us)
+
+    def _mag(self, sample: MagSample, now_us: int) -> list[Measurement]:
+        if self._dead("mag", sample.field_b.tobytes(), now_us):
+            return []
+        assert self.filter is not None
+        nominal = self.filter.nominal
+        strength = math.sqrt(float(sample.field_b @ sample.field_b) / float(self._field_n @ self._field_n))
+        clean = abs(strength - 1.0) < FIELD_TOLERANCE
+        return self._weigh(
+            lambda: measurements.magnetometer(nominal, sample.field_b, self._field_n, self._config.mag),
+            _YAW if clean else (),
+            now_us,
+        )
+
+    def _dead(self, name: str, word: bytes, now_us: int) -> bool:
+        """Whether a sensor keeps saying the same; on the ground, without noise, it may."""
+        return self._aids[name].stuck(word, now_us) and self.flying
+
+    def _weigh(
+        self, measure: Callable[[], Measurement], states: tuple[int, ...], now_us: int, returns: bool = False
+    ) -> list[Measurement]:
+        """The measurement when it passes its gate; one that must be believed is taken at once, and none is left.
+
+        `states` are those that a reset makes anew; empty: there is no reset by this sensor.
+        """
+        assert self.filter is not None
+        measurement = measure()
+        fusion = self.filter.weigh(measurement, self._gate[len(measurement.innovation)])
         self.fusions[fusion.sensor] = fusion
+        aid = self._aids[fusion.sensor]
+        overdue = bool(states) and aid.overdue(now_us, self._config.reset_after_us)
+        if returns or overdue:
+            self._believe(measurement, states if overdue or not fusion.accepted else ())
+            aid.accept(now_us)
+            return []
         if fusion.accepted:
-            if not self._fresh(fusion.sensor, now_us):
-                self._since_us[fusion.sensor] = now_us
-            self._accepted_us[fusion.sensor] = now_us
+            aid.accept(now_us)
+            return [measurement]
+        aid.refuse(now_us)
+        return []
 
-    def _align(self, newest: FloatArray, now_us: int) -> None:
-        """Collect a second at rest, then start the filter level, pointing where the magnetometer says."""
-        self._still.append(newest.copy())
-        enough = len(self._still) * self._period_us >= ALIGN_US
-        if not (enough and self.origin and self._still_baro and self._still_mag):
+    def _believe(self, measurement: Measurement, anew: tuple[int, ...]) -> None:
+        """Take a measurement in whatever it says, move the output with it at once, and tell."""
+        assert self.filter is not None
+        nominal = self.filter.nominal
+        before = nominal.copy()
+        if anew:
+            size = float(np.abs(measurement.innovation).max())
+            self.filter.forget(anew, math.pi if anew == _YAW else 10.0 * max(size, math.sqrt(measurement.R[0, 0])))
+        self.filter.take([measurement])
+        moved, gained = nominal[0:3] - before[0:3], nominal[3:6] - before[3:6]
+        turned = math.remainder(_yaw(nominal[6:10]) - _yaw(before[6:10]), 2.0 * math.pi) if anew == _YAW else 0.0
+        shift_output(self.out, self.ring, moved, gained, turned)
+        self.resets = Resets(self.resets.count + 1, moved, gained, turned)
+
+    def _lean_on_drag(self, now_us: int) -> None:
+        """Without GPS, hold the velocity by the airspeed and the wind there was."""
+        accepted = self._aids["gps_velocity"].accepted_us
+        if accepted is None or now_us - accepted < UNAIDED_US or not self._wind.known or self._config.drag == 0.0:
             return
-        mean = np.mean(self._still, axis=0)
-        up = -mean[3:] / np.linalg.norm(mean[3:])  # specific force at rest is -g e3 seen from b
-        roll = math.atan2(up[1], up[2])
-        pitch = math.atan2(-up[0], math.hypot(up[1], up[2]))
-        cr, sr, cp, sp = math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch)
-        x, y, z = np.mean(self._still_mag, axis=0)
-        level_x, level_y = cp * x + sp * (sr * y + cr * z), cr * y - sr * z
-        yaw = math.atan2(-level_y, level_x) + math.atan2(self._field_n[1], self._field_n[0])
-        cr, sr, cp, sp = math.cos(roll / 2), math.sin(roll / 2), math.cos(pitch / 2), math.sin(pitch / 2)
-        cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
-        q = [
-            cr * cp * cy + sr * sp * sy,
-            sr * cp * cy - cr * sp * sy,
-            cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy,
-        ]
+        assert self.filter is not None
+        f, wind = self.filter, self._wind
+        f.take([measurements.drag(f.nominal, f.felt, wind.wind_n, self._config.drag, wind.sigma)])
+
+    # Start
+
+    def _begin(self, start: Start, now_us: int) -> None:
         nominal = np.zeros(16)
-        nominal[6:10] = q
+        nominal[6:10] = start.q_nb
         config = self._config
         tilt = math.hypot(config.accel_bias / self._gravity, 0.005)
-        heading = 3.0 * config.mag / math.hypot(self._field_n[0], self._field_n[1]) / math.sqrt(len(self._still_mag))
-        sigma = np.repeat([tilt, 0.1, config.gps_position, config.gyro_bias, config.accel_bias], 3)
+        heading = 3.0 * config.mag / math.hypot(self._field_n[0], self._field_n[1]) / math.sqrt(start.mag_samples)
+        place = config.gps_position / math.sqrt(start.fixes)
+        sigma = np.repeat([tilt, 0.1, place, config.gyro_bias, config.accel_bias], 3)
         sigma[2], sigma[8] = heading, config.baro
         self.filter = ErrorStateFilter(nominal, sigma, self._gravity)
-        self.filter.nominal = self.predictor["nominal"][0]  # where the compiled tick reads it
-        self.filter.nominal[:] = nominal
+        shared = self.predictor["nominal"][0]
+        shared[:] = nominal
+        self.filter.nominal = shared  # from now on the compiled tick sees it move
         self.predictor["running"] = 1
         self.out[:10] = nominal[:10]
         self.ring[:] = self.out[:10]
-        self.imu[:] = newest
-        self._height_zero = float(np.mean(self._still_baro))
-        self._zero_samples, self._zero_us = len(self._still_baro), now_us
+        self.imu[:] = self.imu[self._row]
+        self.origin = start.origin
+        self._height_zero, self._zero_samples, self._zero_us = start.height_zero, start.zero_samples, now_us
 
-    def _fresh(self, sensor: str, now_us: int) -> bool:
-        accepted = self._accepted_us.get(sensor)
-        return accepted is not None and now_us - accepted <= STALE_US
+    # What is believed
 
     def _height_variance(self, now_us: int) -> float:
         """What the barometer's zero and drift add to the variance of the height [m^2]."""
@@ -238,17 +328,34 @@ class Estimator:
         drifted = config.baro_drift**2 * -math.expm1(-2.0 * age / config.baro_drift_time)
         return config.baro**2 / self._zero_samples + drifted
 
+    def validity(self, now_us: int) -> Validity:
+        """Which quantities can be relied on now; cheap enough for every look."""
+        if self.filter is None:
+            return Validity(False, False, False, False)
+        P, aids = self.filter.P, self._aids
+        gps, since = aids["gps_position"].fresh(now_us), now_us - aids["gps_position"].since_us
+        if gps and not self._settled:
+            self._settled = since >= self._config.gps_settling_us
+        height = aids["baro"].fresh(now_us) or aids["gps_height"].fresh(now_us)
+        imu = not self.flying or aids["imu"].accepted_us is None or now_us - aids["imu"].accepted_us < 2 * DRAG_US
+        return Validity(
+            attitude=bool(imu and max(P[0, 0], P[1, 1], P[2, 2]) < 0.3**2),
+            velocity=bool(aids["gps_velocity"].fresh(now_us) and max(P[3, 3], P[4, 4], P[5, 5]) < 1.0),
+            position=bool(self._settled and gps and since >= RESETTLE_US and max(P[6, 6], P[7, 7]) < 3.0**2),
+            altitude=bool(height and P[8, 8] + self._height_variance(now_us) < 3.0**2),
+        )
+
     def estimate(self, now_us: int) -> Estimate:
         """What is believed at the newest IMU sample; the arrays are copies.
 
         The covariance is the filter's, with the barometer's zero and drift added to the height's variance.
         """
-        out, aligned = self.out, self.filter is not None
-        settled = now_us - self._since_us.get("gps_position", now_us) >= self._config.gps_settling_us
-        P = self.filter.P.copy() if self.filter is not None else np.diag(np.full(15, 1e6))
-        if aligned:
+        out, valid = self.out, self.validity(now_us)
+        if self.filter is not None:
+            P = self.filter.P.copy()
             P[8, 8] += self._height_variance(now_us)
-        sigma = np.sqrt(np.diagonal(P))
+        else:
+            P = np.diag(np.full(15, 1e6))
         return Estimate(
             now_us=now_us,
             position_n=out[0:3].copy(),
@@ -260,12 +367,15 @@ class Estimator:
             accel_bias=self.bias[3:].copy(),
             covariance=P,
             test_ratio={name: math.sqrt(f.nis / self._gate[f.dof]) for name, f in self.fusions.items()},
-            attitude_valid=aligned and float(sigma[:3].max()) < 0.3,
-            velocity_valid=aligned and self._fresh("gps_velocity", now_us) and float(sigma[3:6].max()) < 1.0,
-            position_valid=aligned
-            and settled
-            and self._fresh("gps_position", now_us)
-            and float(sigma[6:8].max()) < 3.0,
-            altitude_valid=aligned and self._fresh("baro", now_us) and float(sigma[8]) < 3.0,
+            attitude_valid=valid.attitude,
+            velocity_valid=valid.velocity,
+            position_valid=valid.position,
+            altitude_valid=valid.altitude,
             origin=self.origin,
+            resets=self.resets,
         )
+
+
+def _yaw(q_nb: FloatArray) -> float:
+    w, x, y, z = q_nb.tolist()
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))

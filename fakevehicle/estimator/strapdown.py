@@ -53,53 +53,86 @@ def matrix(q):
 
 
 @kernel
-def propagate(nominal, imu, dt, gravity, noise, F, Q):
-    """Carry the nominal state over one tick and write the transition and the process noise of its error.
+def propagate(nominal, samples, first, count, dt, gravity, noise, F, Q, felt):
+    """Carry the nominal state over `count` IMU samples; write the transition and the process noise of its error.
+
+    The nominal state takes every sample; F and Q are of the whole interval T = count dt, with dT and R dV summed.
 
     Parameters
     ----------
     nominal : (16,) in place.
-    imu : (6,) mean gyro [rad/s] and specific force [m/s^2] of the tick, biases still in.
-    dt : [s].  gravity : [m/s^2].
+    samples : (n, 6) ring of mean gyro [rad/s] and specific force [m/s^2] of a tick, biases still in.
+    first, count : the rows to take, wrapping round.
+    dt : of one sample [s].  gravity : [m/s^2].
     noise : (4,) 1 sigma of gyro and accelerometer samples, and of the biases' rates [rad/s^2], [m/s^3].
     F, Q : (15, 15), written; entries that never change are left alone.
+    felt : (7,) specific force in b with its bias removed, smoothed, 0:3, mean acceleration_n 3:6 [m/s^2], in place;
+        6 is the smoothing's time constant [s].
     """
-    tx, ty, tz = (imu[0] - nominal[10]) * dt, (imu[1] - nominal[11]) * dt, (imu[2] - nominal[12]) * dt
-    vx, vy, vz = (imu[3] - nominal[13]) * dt, (imu[4] - nominal[14]) * dt, (imu[5] - nominal[15]) * dt
-    # body turned while it was pushed: dV + 1/2 dT x dV
-    ux, uy, uz = vx + 0.5 * (ty * vz - tz * vy), vy + 0.5 * (tz * vx - tx * vz), vz + 0.5 * (tx * vy - ty * vx)
+    n = samples.shape[0]
     q = nominal[6:10]
-    r = matrix(q)
-    half = 0.5 * dt
-    for i in range(3):
-        dv = r[3 * i] * ux + r[3 * i + 1] * uy + r[3 * i + 2] * uz
-        if i == 2:
-            dv += gravity * dt
-        nominal[i] += dt * nominal[3 + i] + half * dv
-        nominal[3 + i] += dv
-        # -R [dV]x, row i
-        a, b, c = r[3 * i], r[3 * i + 1], r[3 * i + 2]
-        F[3 + i, 0] = -(b * vz - c * vy)
-        F[3 + i, 1] = -(c * vx - a * vz)
-        F[3 + i, 2] = -(a * vy - b * vx)
-        for j in range(3):
-            F[3 + i, 12 + j] = -dt * r[3 * i + j]
+    r = matrix(q)  # at the start of the interval
+    ax, ay, az = 0.0, 0.0, 0.0  # dT of the interval
+    sx, sy, sz = 0.0, 0.0, 0.0  # R dV of the interval, in n
+    share = min(1.0, dt / felt[6])
+    for k in range(count):
+        imu = samples[(first + k) % n]
+        tx, ty, tz = (imu[0] - nominal[10]) * dt, (imu[1] - nominal[11]) * dt, (imu[2] - nominal[12]) * dt
+        fx, fy, fz = imu[3] - nominal[13], imu[4] - nominal[14], imu[5] - nominal[15]
+        felt[0] += share * (fx - felt[0])
+        felt[1] += share * (fy - felt[1])
+        felt[2] += share * (fz - felt[2])
+        vx, vy, vz = fx * dt, fy * dt, fz * dt
+        # body turned while it was pushed: dV + 1/2 dT x dV
+        ux, uy, uz = vx + 0.5 * (ty * vz - tz * vy), vy + 0.5 * (tz * vx - tx * vz), vz + 0.5 * (tx * vy - ty * vx)
+        m = matrix(q)
+        dx = m[0] * ux + m[1] * uy + m[2] * uz
+        dy = m[3] * ux + m[4] * uy + m[5] * uz
+        dz = m[6] * ux + m[7] * uy + m[8] * uz
+        sx, sy, sz = sx + dx, sy + dy, sz + dz
+        dz += gravity * dt
+        nominal[0] += dt * (nominal[3] + 0.5 * dx)
+        nominal[1] += dt * (nominal[4] + 0.5 * dy)
+        nominal[2] += dt * (nominal[5] + 0.5 * dz)
+        nominal[3] += dx
+        nominal[4] += dy
+        nominal[5] += dz
+        ax, ay, az = ax + tx, ay + ty, az + tz
+        turn(q, tx, ty, tz)
+    T = count * dt
+    half = 0.5 * T
+    felt[3], felt[4], felt[5] = sx / T, sy / T, sz / T + gravity
+    for j in range(3):
+        a, b, c = r[j], r[3 + j], r[6 + j]  # column j of R
+        # -R [dV]x = -[R dV]x R
+        F[3, j] = sz * b - sy * c
+        F[4, j] = sx * c - sz * a
+        F[5, j] = sy * a - sx * b
+        for i in range(3):
+            F[3 + i, 12 + j] = -T * r[3 * i + j]
             F[6 + i, j] = half * F[3 + i, j]
             F[6 + i, 12 + j] = half * F[3 + i, 12 + j]
-        F[6 + i, 3 + i] = dt
-        F[i, 9 + i] = -dt
-    F[0, 1], F[0, 2], F[1, 2] = tz, -ty, tx
-    F[1, 0], F[2, 0], F[2, 1] = -tz, ty, -tx
-    turn(q, tx, ty, tz)
+        F[6 + j, 3 + j] = T
+        F[j, 9 + j] = -T
+    F[0, 1], F[0, 2], F[1, 2] = az, -ay, ax
+    F[1, 0], F[2, 0], F[2, 1] = -az, ay, -ax
     s_v = noise[1] * noise[1] * dt  # spectral density of the accelerometer's noise [(m/s^2)^2/Hz]
     for i in range(3):
-        Q[i, i] = (noise[0] * dt) ** 2
-        Q[3 + i, 3 + i] = s_v * dt
-        Q[3 + i, 6 + i] = s_v * dt * dt / 2.0
-        Q[6 + i, 3 + i] = s_v * dt * dt / 2.0
-        Q[6 + i, 6 + i] = s_v * dt * dt * dt / 3.0
-        Q[9 + i, 9 + i] = (noise[2] * dt) ** 2
-        Q[12 + i, 12 + i] = (noise[3] * dt) ** 2
+        Q[i, i] = noise[0] * noise[0] * dt * T
+        Q[3 + i, 3 + i] = s_v * T
+        Q[3 + i, 6 + i] = s_v * T * T / 2.0
+        Q[6 + i, 3 + i] = s_v * T * T / 2.0
+        Q[6 + i, 6 + i] = s_v * T * T * T / 3.0
+        Q[9 + i, 9 + i] = noise[2] * noise[2] * dt * T
+        Q[12 + i, 12 + i] = noise[3] * noise[3] * dt * T
+
+
+@kernel
+def seen_from_body(q, vector_n, out):
+    """R^T v: a vector in n, (3,), as the body sees it, into `out`."""
+    m = matrix(q)
+    for i in range(3):
+        out[i] = m[i] * vector_n[0] + m[3 + i] * vector_n[1] + m[6 + i] * vector_n[2]
 
 
 @kernel
@@ -164,3 +197,22 @@ def inject(nominal, error, P, scratch):
         for j in range(15):
             P[i, j] = 0.5 * (scratch[i, j] + scratch[j, i])
         error[i] = 0.0
+
+
+@kernel
+def shift_output(out, ring, position_n, velocity_n, yaw):
+    """Move the output and all of its past at once: a reset.
+
+    Parameters
+    ----------
+    out : (>= 10,) and ring : (n, 10), position, velocity, q_nb, in place.
+    position_n, velocity_n : (3,) to add.  yaw : turn about the down axis [rad].
+    """
+    c, s = math.cos(0.5 * yaw), math.sin(0.5 * yaw)
+    for k in range(ring.shape[0] + 1):
+        row = ring[k] if k < ring.shape[0] else out[:10]
+        for i in range(3):
+            row[i] += position_n[i]
+            row[3 + i] += velocity_n[i]
+        w, x, y, z = row[6], row[7], row[8], row[9]  # (c, 0, 0, s) * q
+        row[6], row[7], row[8], row[9] = c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w

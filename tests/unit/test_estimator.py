@@ -53,12 +53,17 @@ def between(a: FloatArray, b: FloatArray) -> FloatArray:
     )
 
 
-def test_the_transition_matrix_is_the_derivative_of_the_strapdown() -> None:
-    imu, dt = np.array([0.8, -0.5, 0.3, 1.0, -2.0, -9.0]), 0.004
-    nominal = some_state(1)
+def felt() -> FloatArray:
+    return np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1])
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_the_transition_matrix_is_the_derivative_of_the_strapdown(count: int) -> None:
+    imu = np.array([[0.8, -0.5, 0.3, 1.0, -2.0, -9.0], [0.7, -0.4, 0.5, 1.5, -1.0, -9.5]])[:count]
+    nominal, dt = some_state(1), 0.004
     F, Q = np.eye(15), np.zeros((15, 15))
     carried = nominal.copy()
-    propagate(carried, imu, dt, G, QUIET, F, Q)
+    propagate(carried, imu, 0, count, dt, G, QUIET, F, Q, felt())
     numeric, h = np.zeros((15, 15)), 1e-5
     for j in range(15):
         ends = []
@@ -66,13 +71,13 @@ def test_the_transition_matrix_is_the_derivative_of_the_strapdown() -> None:
             error = np.zeros(15)
             error[j] = sign * h
             other = moved(nominal, error)
-            propagate(other, imu, dt, G, QUIET, np.eye(15), Q)
+            propagate(other, imu, 0, count, dt, G, QUIET, np.eye(15), Q, felt())
             ends.append(between(carried, other))
         numeric[:, j] = (ends[0] - ends[1]) / (2 * h)
-    np.testing.assert_allclose(F, numeric, atol=3e-4)  # the page's F leaves out terms of second order in dt
+    np.testing.assert_allclose(F, numeric, atol=3e-4 * count)  # F leaves out terms of second order in dt
 
 
-@pytest.mark.parametrize("sensor", ["gps_position", "gps_velocity", "baro", "mag"])
+@pytest.mark.parametrize("sensor", ["gps_position", "gps_velocity", "gps_height", "baro", "mag", "drag"])
 def test_every_jacobian_is_the_derivative_of_its_measurement(sensor: str) -> None:
     nominal, h = some_state(2), 1e-6
 
@@ -81,8 +86,12 @@ def test_every_jacobian_is_the_derivative_of_its_measurement(sensor: str) -> Non
             return measurements.gps_position(state, np.zeros(3), 0.5)
         if sensor == "gps_velocity":
             return measurements.gps_velocity(state, np.zeros(3), 0.5)
+        if sensor == "gps_height":
+            return measurements.gps_height(state, 0.0, 0.5)
         if sensor == "baro":
             return measurements.baro(state, 0.0, 0.5)
+        if sensor == "drag":  # what is felt has the believed bias taken off: y is of the state alone
+            return measurements.drag(state, np.array([0.2, -0.1]) - state[13:15], np.array([3.0, -1.0, 0.0]), 0.12, 0.5)
         return measurements.magnetometer(state, np.zeros(3), field_n(), 0.05)
 
     H = measure(nominal).H
@@ -133,23 +142,13 @@ def test_a_wild_measurement_is_refused_and_changes_nothing() -> None:
     np.testing.assert_array_equal(f.P, P)
 
 
-MATCHED = {  # the filter knows exactly how bad its sensors are
-    "EKF2_GPS_P_NOISE": 0.35,
-    "EKF2_GPS_V_NOISE": 0.05,
-    "EKF2_BARO_NOISE": 0.2,
-    "EKF2_MAG_NOISE": 0.03,
-    "EKF2_GYR_NOISE": 0.003,
-    "EKF2_ACC_NOISE": 0.07,
-    "EKF2_ABIAS_INIT": 0.05,
-    "EKF2_GBIAS_INIT": 0.005,
-    "SIM_BARO_DRIFT": 0.0,
-}
+NO_DRIFT = {"SIM_BARO_DRIFT": 0.0}
 
 
 def test_the_filter_believes_itself_as_much_as_it_should_on_the_ground_and_in_flight() -> None:
     stack = FlightStack(
         airframe=load_airframe("x500"),
-        parameters=ParameterSet(PARAMETERS, MATCHED),
+        parameters=ParameterSet(PARAMETERS, NO_DRIFT),
         home=HOME,
         heading=0.5,
         wind_n=np.array([2.0, 1.0, 0.0]),
@@ -198,7 +197,7 @@ def test_the_height_s_variance_grows_as_an_unaided_barometer_s_error_does() -> N
     """The judge is the barometer itself, many times: zero taken over 25 samples, drift watched without noise."""
     stack = FlightStack(
         airframe=load_airframe("x500"),
-        parameters=ParameterSet(PARAMETERS, MATCHED | {"SIM_BARO_DRIFT": 0.1}),
+        parameters=ParameterSet(PARAMETERS),
         home=HOME,
         heading=0.0,
         wind_n=np.zeros(3),
@@ -232,7 +231,7 @@ def test_a_long_flight_makes_the_filter_neither_surer_than_it_is_right_nor_more_
             wind_n=np.array([2.0, -1.0, 0.0]),
             seed=seed,
         )
-        past: deque[FloatArray] = deque(maxlen=29)  # truth at the horizon is 28 ticks old
+        past: deque[FloatArray] = deque(maxlen=40)
         apart: FloatArray | None = None
         for k in range(1, round(260.0 / 0.004) + 1):
             t = k * 0.004
@@ -243,10 +242,11 @@ def test_a_long_flight_makes_the_filter_neither_surer_than_it_is_right_nor_more_
             past.append(stack._x.copy())
             if t < 20.0 or k % 250:
                 continue
-            truth, estimator = past[0], stack.estimator
+            estimator = stack.estimator
+            truth = past[-1 - (k * 4000 - estimator.horizon_us) // 4000]
             assert estimator.filter is not None
             assert estimator.origin is not None
-            if apart is None:  # from home to the first fix: the ellipsoid's radii at Zurich's latitude, by hand
+            if apart is None:  # from home to the origin: the ellipsoid's radii at Zurich's latitude, by hand
                 apart = np.array(
                     [
                         (estimator.origin.latitude - HOME.latitude) * (6_370_064.0 + 488.0),
@@ -262,7 +262,7 @@ def test_a_long_flight_makes_the_filter_neither_surer_than_it_is_right_nor_more_
             heights.append(float(error[8] ** 2 / covariance[8, 8]))
     late = [value for t, value in nees if t > 200.0]
     early = [value for t, value in nees if t < 80.0]
-    # 15 if every noise were matched; believing each 1.15 to 1.3 times as large gives about 10
-    assert 5.0 < float(np.mean(early)) < 13.0
-    assert 5.0 < float(np.mean(late)) < 13.0  # 15.2 when the biases were believed to wander slower than they do
+    # 15 in the mean; the errors of a flight are correlated over seconds, so three flights scatter by a good tenth
+    assert 12.0 < float(np.mean(early)) < 18.5
+    assert 12.0 < float(np.mean(late)) < 18.5
     assert 0.3 < float(np.mean(heights)) < 1.7
