@@ -4,7 +4,7 @@ A schedule is fixed before the flight or added to in it; whoever simulates a sen
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 
@@ -66,6 +66,11 @@ class FaultSchedule:
     def add(self, fault: Fault) -> None:
         """One more."""
         self._faults = (*self._faults, fault)
+
+    def mend(self, sensor: Sensor, now_us: int) -> None:
+        """End every fault of one sensor that holds at `now_us`."""
+        ending = self.active(sensor, now_us)
+        self._faults = tuple(replace(f, end_us=now_us) if f in ending else f for f in self._faults)
 
     def active(self, sensor: Sensor, now_us: int) -> tuple[Fault, ...]:
         """Those of one sensor that hold at `now_us`, in the order they were given."""

@@ -23,8 +23,8 @@ from fakevehicle.errors import DivergedError
 from fakevehicle.estimator import settings
 from fakevehicle.estimator.horizon import Estimator
 from fakevehicle.estimator.settings import estimator_config
-from fakevehicle.faults import Fault, FaultSchedule
-from fakevehicle.params import Parameter, ParameterSet
+from fakevehicle.faults import Fault, FaultSchedule, Sensor
+from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.physics.wind import TURBULENCE, Gust, gust_table
 from fakevehicle.sensors import suite
 from fakevehicle.sensors.imu import IMU
@@ -52,10 +52,14 @@ BATTERY_US = 20_000
 BLOCK = 256
 """Ticks whose random draws are made at once."""
 
+_I = ParameterType.INT32
 PARAMETERS: tuple[Parameter, ...] = (
     *gains.PARAMETERS,
     *settings.PARAMETERS,
     *suite.PARAMETERS,
+    Parameter("MC_BAT_SCALE_EN", 1, 0, 1, "", "raise the motors' commands as the battery's voltage falls", _I),
+    Parameter("SIM_BAT_CAPACITY", 0, 0, 100000, "mAh", "simulator: capacity of the battery, 0 for the airframe's"),
+    Parameter("SIM_BAT_SAG", 1, 0, 1, "", "simulator: whether the motors feel the battery's voltage", _I),
     Parameter("SIM_WIND_GUST", 0.0, 0, 20, "m/s", "simulator: Dryden turbulence, as the mean wind at 20 ft; 0 is calm"),
 )
 
@@ -118,8 +122,10 @@ class FlightStack:
         )
         self._estimator = Estimator(estimator_config(p), field_n(), GRAVITY, self.TICK_US)
         self._turbulent = False
+        self._resets = self._estimator.resets
+        self._speed_max = airframe.max_rotor_speed
+        self._battery = Battery(airframe.battery)
         self._read_own_parameters()
-        self._battery = Battery()
         self._setpoint: FloatArray = self._world["setpoint"][0]
         self._setpoint_from: Setpoint | None = None
         self._motors = tick.RESTING
@@ -180,12 +186,27 @@ class FlightStack:
         self._sensors.sense(self._ticks, now_us, self._x, estimator.add)
         estimator.flying = motors == tick.FLYING
         estimator.step(now_us)
+        if estimator.resets is not self._resets:
+            self._resets = estimator.resets
+            control.follow(self._resets)
         if now_us % BATTERY_US == 0:
-            self._battery.draw(self._thrust(), armed, BATTERY_US * 1e-6)
+            self._drain()
+
+    def _drain(self) -> None:
+        """Draw what the motors take, and let them feel the voltage."""
+        battery, body = self._battery, self._body[0]
+        a, b, c, d = self._x[13:17].tolist()
+        battery.draw((a**3 + b**3 + c**3 + d**3) / (4.0 * self._speed_max**3), BATTERY_US * 1e-6)
+        body["sag"] = sag = battery.sag if self._sagging else 1.0
+        body["boost"] = 1.0 / sag if self._boosting else 1.0
 
     def inject(self, fault: Fault) -> None:
         """Add a fault to the schedule."""
         self._faults.add(fault)
+
+    def mend(self, sensor: Sensor, now_us: int) -> None:
+        """End every fault of one sensor."""
+        self._faults.mend(sensor, now_us)
 
     def reset_control(self) -> None:
         """Forget the setpoints there were, without a bump of the motors: at a change of mode."""
@@ -320,7 +341,11 @@ class FlightStack:
 
     def _read_own_parameters(self) -> None:
         suite.configure_imu(self._imu, self._parameters, tick.SUBSTEPS, self.TICK_US * 1e-6)
-        strength = float(self._parameters["SIM_WIND_GUST"])
+        p = self._parameters
+        self._sagging, self._boosting = bool(p["SIM_BAT_SAG"]), bool(p["MC_BAT_SCALE_EN"])
+        capacity = p["SIM_BAT_CAPACITY"] or 1000.0 * self._battery.pack.capacity
+        self._battery.capacity = 3.6 * float(capacity)
+        strength = float(p["SIM_WIND_GUST"])
         self._world["strength"] = strength
         if strength > 0.0 and not self._turbulent:  # the block under way has none for it yet
             self._gust_rng.standard_normal(out=self._gust_noise)
