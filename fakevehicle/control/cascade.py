@@ -10,6 +10,10 @@
 
 The attitude law is the reduced one (Brescianini, Hehn & D'Andrea 2013): tilt is corrected along the shortest turn, the
 rest of the error is a turn about z_b and gets its own, smaller gain.
+
+A reset of the estimate (`Resets`) is no motion, so the loops must not answer it with one. What they see is the estimate
+less the jumps (`shift`), which fade: velocity and yaw with `FADE` seconds, position no faster than `RETURN` m/s. What
+is followed stays where it is in the world, and the vehicle goes back to it without a jerk.
 """
 
 import math
@@ -28,6 +32,8 @@ SETPOINT = 19
 rate 15:18, thrust 18 (0..1 of the maximum); NaN is "not asked for". The last eight are not followed yet."""
 NAVIGATION = 16
 """An estimate as numbers: position 0:3, velocity 3:6, q_nb 6:10, omega_b 10:13, acceleration 13:16."""
+FADE, RETURN = 1.5, 1.0
+"""Time constant [s] and highest speed [m/s] at which a reset fades out of what the loops see."""
 
 GAINS = np.dtype(
     [
@@ -56,6 +62,7 @@ LOOPS = np.dtype(
         ("saturated", "f8"),
         ("gyro_gain", "f8"),  # low pass of the gyro: y += gain (x - y)
         ("gyro", "f8", (3,)),
+        ("shift", "f8", (7,)),  # jumps of the estimate that the loops do not see yet: position, velocity, yaw
     ]
 )
 
@@ -77,13 +84,19 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     """
     g = body.gravity
     acc0, acc1, acc2 = 0.0, 0.0, 0.0
-    sp = status.followed
+    sp, shift = status.followed, status.shift
+    fade = period / FADE
+    for i in range(7):
+        lost = fade * shift[i]
+        if i < 3:
+            lost = min(max(lost, -RETURN * period), RETURN * period)
+        shift[i] -= lost
     # position -> velocity
     for i in range(3):
         p, v, a = setpoint[i], setpoint[3 + i], setpoint[6 + i]
         if not math.isnan(p):
             sp[i] = p
-            sp[3 + i] = (0.0 if math.isnan(v) else v) + gains.position_p[i] * (p - nav[i])
+            sp[3 + i] = (0.0 if math.isnan(v) else v) + gains.position_p[i] * (p - nav[i] + shift[i])
         elif not math.isnan(v):
             sp[i], sp[3 + i] = math.nan, v
         else:
@@ -101,7 +114,9 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
         if math.isnan(sp[3 + i]):
             a = sp[6 + i] + bank[j].integral + bank[j].kt * bank[j].t_out  # all of the trim, the tilt term's too
         else:
-            a = fopid_step(bank, coefficients, states, j, sp[3 + i], nav[3 + i], sp[6 + i], status.pushed_a[i])
+            a = fopid_step(
+                bank, coefficients, states, j, sp[3 + i], nav[3 + i] - shift[3 + i], sp[6 + i], status.pushed_a[i]
+            )
         if i == 0:
             acc0 = a
         elif i == 1:
@@ -170,7 +185,7 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     ry, rz = qy * half + qw * ty + qz * tx, qz * half + qx * ty - qy * tx
     mw = rw * dw + rx * dx + ry * dy + rz * dz
     mz = rw * dz - rx * dy + ry * dx - rz * dw
-    psi = 2.0 * math.atan2(mz, mw)
+    psi = 2.0 * math.atan2(mz, mw) + shift[6]
     if psi > math.pi:
         psi -= 2.0 * math.pi
     elif psi < -math.pi:

@@ -14,7 +14,7 @@ from fakevehicle.airframe import Airframe
 from fakevehicle.control.cascade import GAINS, LOOPS, RATE, VELOCITY
 from fakevehicle.control.fopid_tid import LoopBank
 from fakevehicle.params import Parameter, ParameterSet
-from fakevehicle.vocabulary import FloatArray
+from fakevehicle.vocabulary import FloatArray, Resets
 
 OUTER_PERIOD, INNER_PERIOD = 0.004, 0.001
 
@@ -165,13 +165,21 @@ class ControlTables:
         s = self.status[0]
         s["yaw"], s["thrust"], s["saturated"] = yaw, 0.0, 0.0
         s["pushed_a"], s["pushed_m"], s["rate_sp"] = 0.0, 0.0, 0.0
-        s["followed"] = np.nan
+        s["followed"], s["shift"] = np.nan, 0.0
         s["q_sp"] = [math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw)]
 
     def rebase(self) -> None:
         """Forget the setpoints there were, keep the trim: for a change of mode."""
         for i in range(VELOCITY, VELOCITY + 3):
             self.bank.rebase(i)
+        self.status[0]["shift"][:3] = 0.0  # new setpoints begin at the estimate as it is
+
+    def follow(self, resets: Resets) -> None:
+        """Take the estimate's newest jump for what it is, no motion."""
+        shift = self.status[0]["shift"]
+        shift[0:3] += resets.delta_position_n
+        shift[3:6] += resets.delta_velocity_n
+        shift[6] += resets.delta_yaw
 
     @property
     def motor(self) -> FloatArray:

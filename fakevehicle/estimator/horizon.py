@@ -106,6 +106,7 @@ class Estimator:
         self.origin: Geodetic | None = None
         self.fusions: dict[str, Fusion] = {}
         self.resets = Resets()
+        self._reset_us = -1
         self.flying = False
         self._aids = {name: Aid() for name in ("gps_position", "gps_velocity", "gps_height", "baro", "mag", "imu")}
         self._settled = False
@@ -265,7 +266,7 @@ class Estimator:
         aid = self._aids[fusion.sensor]
         overdue = bool(states) and aid.overdue(now_us, self._config.reset_after_us)
         if returns or overdue:
-            self._believe(measurement, states if overdue or not fusion.accepted else ())
+            self._believe(measurement, states if overdue or not fusion.accepted else (), now_us)
             aid.accept(now_us)
             return []
         if fusion.accepted:
@@ -274,7 +275,7 @@ class Estimator:
         aid.refuse(now_us)
         return []
 
-    def _believe(self, measurement: Measurement, anew: tuple[int, ...]) -> None:
+    def _believe(self, measurement: Measurement, anew: tuple[int, ...], now_us: int) -> None:
         """Take a measurement in whatever it says, move the output with it at once, and tell."""
         assert self.filter is not None
         nominal = self.filter.nominal
@@ -286,7 +287,12 @@ class Estimator:
         moved, gained = nominal[0:3] - before[0:3], nominal[3:6] - before[3:6]
         turned = math.remainder(_yaw(nominal[6:10]) - _yaw(before[6:10]), 2.0 * math.pi) if anew == _YAW else 0.0
         shift_output(self.out, self.ring, moved, gained, turned)
-        self.resets = Resets(self.resets.count + 1, moved, gained, turned)
+        told = self.resets
+        if self._reset_us == now_us:  # a fix is two measurements and one jump
+            moved, gained = moved + told.delta_position_n, gained + told.delta_velocity_n
+            turned += told.delta_yaw
+        self.resets = Resets(told.count + (self._reset_us != now_us), moved, gained, turned)
+        self._reset_us = now_us
 
     def _lean_on_drag(self, now_us: int) -> None:
         """Without GPS, hold the velocity by the airspeed and the wind there was."""
