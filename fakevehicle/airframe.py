@@ -11,6 +11,7 @@ import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from fakevehicle.battery import Pack
 from fakevehicle.errors import AirframeError
 from fakevehicle.vocabulary import FloatArray
 
@@ -45,6 +46,7 @@ BODY = np.dtype(
         ("mix", "f8", (4, 4)),  # rotor thrusts from (tau_x, tau_y, tau_z, total thrust)
         ("effect", "f8", (4,)),  # what is left of each rotor, 0..1
         ("sag", "f8"),  # battery voltage over the one that full speed belongs to
+        ("boost", "f8"),  # by which the mixer's speeds are raised against it
     ]
 )
 """What the physics and the mixer know of the vehicle; one record."""
@@ -92,6 +94,7 @@ class Airframe(BaseModel):
     contact_stiffness: Positive
     contact_damping: NotNegative
     contact_friction: NotNegative
+    battery: Pack
     source: dict[str, str]
 
     @model_validator(mode="after")
@@ -139,7 +142,7 @@ class Airframe(BaseModel):
         foot = float(np.mean([point[2] for point in self.contact_points_b]))
         b["ground"] = foot - self.mass * GRAVITY / (4 * self.contact_stiffness)
         b["mix"] = np.linalg.inv(self.allocation())
-        b["effect"], b["sag"] = 1.0, 1.0
+        b["effect"], b["sag"], b["boost"] = 1.0, 1.0, 1.0
         return body
 
 

@@ -23,7 +23,7 @@ from fakevehicle.errors import DivergedError
 from fakevehicle.estimator import settings
 from fakevehicle.estimator.horizon import Estimator
 from fakevehicle.estimator.settings import estimator_config
-from fakevehicle.faults import Fault, FaultSchedule, Sensor
+from fakevehicle.faults import Fault, FaultKind, FaultSchedule, Sensor
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.physics.wind import TURBULENCE, Gust, gust_table
 from fakevehicle.sensors import suite
@@ -190,15 +190,19 @@ class FlightStack:
             self._resets = estimator.resets
             control.follow(self._resets)
         if now_us % BATTERY_US == 0:
-            self._drain()
+            self._drain(now_us)
 
-    def _drain(self) -> None:
-        """Draw what the motors take, and let them feel the voltage."""
+    def _drain(self, now_us: int) -> None:
+        """Draw what the motors take, let them feel the voltage, and break those whose time has come."""
         battery, body = self._battery, self._body[0]
         a, b, c, d = self._x[13:17].tolist()
         battery.draw((a**3 + b**3 + c**3 + d**3) / (4.0 * self._speed_max**3), BATTERY_US * 1e-6)
         body["sag"] = sag = battery.sag if self._sagging else 1.0
         body["boost"] = 1.0 / sag if self._boosting else 1.0
+        body["effect"] = 1.0
+        for fault in self._faults.active(Sensor.MOTOR, now_us):
+            left = fault.magnitude[0] if fault.magnitude and fault.kind is not FaultKind.OFF else 0.0
+            body["effect"][fault.index % 4] = min(max(left, 0.0), 1.0)
 
     def inject(self, fault: Fault) -> None:
         """Add a fault to the schedule."""

@@ -101,6 +101,8 @@ def advance(
         g = imu.gyro_sample
         if motors == FLYING:
             rate_loop(g[0] - bias[0], g[1] - bias[1], g[2] - bias[2], status, body, bank, coefficients, states)
+            for i in range(4):
+                status.command[i] = min(status.command[i] * body.boost, body.speed_max)
         else:
             for i in range(3):
                 status.gyro[i] += status.gyro_gain * (g[i] - bias[i] - status.gyro[i])

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fakevehicle.battery import Battery
+from fakevehicle.battery import Battery, Pack
 from fakevehicle.faults import Fault
 from fakevehicle.vocabulary import (
     BaroSample,
@@ -40,7 +40,7 @@ class PointMass:
         self.setpoint = Setpoint()
         self.position_known = True
         self.resets = 0
-        self.battery = Battery()
+        self.battery = Battery(Pack(cells=4, capacity=5.0, resistance=0.02, idle_power=8.0, full_power=400.0))
         self.faults: list[Fault] = []
         self.range = None
         self.obstacles = None
@@ -65,7 +65,7 @@ class PointMass:
             )
             self.thrust = HOVER
         if now_us % 20_000 == 0:
-            self.battery.draw(self.thrust, armed, 0.02)
+            self.battery.draw(max(self.thrust, 0.0) ** 1.5 if armed else 0.0, 0.02)
         self.v += np.clip((wanted - self.v) / 0.1, -9.8, 9.8) * dt
         self.p += self.v * dt
         if self.p[2] >= 0.0:  # on the ground; a loop that still wants down lets go of the thrust

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fakevehicle.battery import CELLS, Battery
+from fakevehicle.battery import Battery
 from fakevehicle.codec import Message
 from fakevehicle.config import VehicleConfig
 from fakevehicle.flight import FlightStack
@@ -284,13 +284,14 @@ class Telemetry(Service):
 
     def battery_status(self) -> Message:
         b = self._battery
-        cell = round(b.voltage / CELLS * 1e3)
+        cells = min(b.pack.cells, 10)  # what the field has room for
+        cell = round(b.voltage / b.pack.cells * 1e3)
         return mavlink.MAVLink_battery_status_message(
             0,
             mavlink.MAV_BATTERY_FUNCTION_ALL,
             mavlink.MAV_BATTERY_TYPE_LIPO,
             0x7FFF,
-            [cell] * CELLS + [_UNKNOWN16] * (10 - CELLS),
+            [cell] * cells + [_UNKNOWN16] * (10 - cells),
             round(b.current * 100),
             round(b.used / 3.6),
             -1,

@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from fakevehicle.airframe import GRAVITY, Airframe, load_airframe
+from fakevehicle.battery import Battery
 from fakevehicle.control.allocation import allocate
 from fakevehicle.errors import AirframeError
 from fakevehicle.physics.dynamics import STATE, derivative, step
@@ -179,6 +180,24 @@ def test_the_mixer_gives_up_the_least_important_axis_first(
         assert abs(pushed[axis]) > 1e-3
     assert command.max() <= X500.max_rotor_speed + 1e-9
     assert command.min() >= X500.idle_rotor_speed - 1e-9
+
+
+def test_a_battery_sags_under_load_and_empties() -> None:
+    pack = X500.battery
+    battery = Battery(pack)
+    assert battery.voltage == pytest.approx(16.8)
+    assert battery.sag == 1.0
+    for _ in range(50 * 600):  # ten minutes of hover
+        battery.draw(0.769**3, 0.02)
+    # 190 W at 15.5 V or so for 600 s, of 18000 C
+    assert battery.remaining == pytest.approx(1.0 - 190.0 / 15.5 * 600.0 / 18000.0, abs=0.02)
+    resting = 4 * (3.5 + 0.7 * battery.remaining)
+    assert battery.voltage == pytest.approx(resting - pack.resistance * battery.current)
+    for _ in range(50 * 1800):
+        battery.draw(1.0, 0.02)
+    assert battery.remaining == 0.0
+    assert math.isfinite(battery.current)
+    assert battery.voltage > 7.0
 
 
 def test_it_rests_on_the_ground_without_drifting_even_in_wind() -> None:
