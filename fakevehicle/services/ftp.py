@@ -46,7 +46,7 @@ MAX_CHECKSUM = 64 * 1024 * 1024
 """A larger file's checksum is refused: it would hold up the flight."""
 
 ACK, NAK = 128, 129
-TERMINATE, RESET, LIST, OPEN, READ, CRC32, BURST = 1, 2, 3, 4, 5, 14, 15
+TERMINATE, RESET, LIST, OPEN, READ, CRC32, BURST, LIST_TIMES = 1, 2, 3, 4, 5, 14, 15, 16
 _WRITES = {
     6: "create",
     7: "write",
@@ -170,7 +170,7 @@ class Ftp(Service):
 
     def _answer(self, key: Key, asked: Request, now_us: int) -> bytes | None:
         """What to answer; None: a burst answers by itself."""
-        if asked.opcode == LIST:
+        if asked.opcode in (LIST, LIST_TIMES):
             return self._list(asked)
         if asked.opcode == OPEN:
             return self._open(key, asked, now_us)
@@ -183,7 +183,9 @@ class Ftp(Service):
         if asked.opcode in (READ, BURST, TERMINATE):
             held = self._sessions.get(key)
             if held is None:
-                return self._refusal(asked, (INVALID_SESSION, f"no file is open as {asked.session}"))
+                # Clients end a session after every listing, though it has none: nothing to complain about.
+                reason = "" if asked.opcode == TERMINATE else f"no file is open as {asked.session}"
+                return self._refusal(asked, (INVALID_SESSION, reason))
             if asked.opcode == READ:
                 return self._read(held, asked)
             if asked.opcode == BURST:
@@ -202,7 +204,7 @@ class Ftp(Service):
             return self._refusal(asked, (NOT_FOUND, f"no folder {asked.path}"))
         out = b""
         for entry in entries[asked.offset :]:
-            text = _line(entry)
+            text = _line(entry, with_time=asked.opcode == LIST_TIMES)
             if len(out) + len(text) > MAX_DATA:
                 break
             out += text
@@ -296,8 +298,14 @@ def _answer(asked: Request, opcode: int, data: bytes = b"", *, burst_complete: b
     return (header + data).ljust(PAYLOAD, b"\0")
 
 
-def _line(entry: Entry) -> bytes:
-    """One entry of a listing; a name that does not fit is skipped, but counted as the client counts."""
-    name = entry.name.encode("utf-8", "replace")
-    text = b"D" + name + b"\0" if entry.is_dir else b"F" + name + b"\t%d\0" % entry.size
+def _line(entry: Entry, *, with_time: bool) -> bytes:
+    """One entry of a listing; a name that does not fit is skipped, but counted as the client counts.
+
+    With its time, a folder has the same three fields as a file (ListDirectoryWithTime, in the guide since 2026).
+    """
+    kind, name = b"D" if entry.is_dir else b"F", entry.name.encode("utf-8", "replace")
+    if with_time:
+        text = kind + name + b"\t%d\t%d\0" % (entry.size, entry.time_unix_s)
+    else:
+        text = kind + name + (b"\0" if entry.is_dir else b"\t%d\0" % entry.size)
     return text if len(text) <= MAX_DATA else b"S\0"

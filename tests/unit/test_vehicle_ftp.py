@@ -103,6 +103,20 @@ def test_a_folder_is_listed_from_any_entry_on_until_the_end(client: Client) -> N
     assert client.said == ["File refused: no folder /nope", "File refused: no folder /log/../../etc"]
 
 
+def test_a_folder_is_listed_with_times_to_who_asks_for_them() -> None:
+    client = Client(Tree({"made": lambda _query: b"123"}, {"log": Dated({"a": b"12"})}))
+    assert client.ask(16, b"/") == (ACK, b"Dlog\t0\t0\0Fmade\t3\t0\0")
+    assert client.ask(16, b"log") == (ACK, b"Fa\t2\t1700000000\0")
+    assert client.ask(16, b"log", offset=1) == nak(END_OF_FILE)
+
+
+def test_ending_what_is_not_open_is_refused_without_words(client: Client) -> None:
+    assert client.ask(TERMINATE, session=4) == nak(INVALID_SESSION)
+    assert client.said == []
+    assert client.ask(READ, session=4) == nak(INVALID_SESSION)
+    assert client.said == ["File refused: no file is open as 4"]
+
+
 def test_a_long_folder_comes_in_pieces_that_never_cut_a_name() -> None:
     names = [f"a_rather_long_name_of_a_recording_{i:03d}.mcap" for i in range(40)]
     client = Client(Tree(mounts={"log": MemoryFiles({name: b"" for name in names} | {"z" * 300: b""})}))
