@@ -79,7 +79,7 @@ def among(trajectory: Trajectory, query: Query, movers: FloatArray) -> Passage:
             best = found
             if made is trajectory:
                 break
-    if best is None and not np.any(trajectory.velocity(0.0)):
+    if best is None and _waits(query):
         for seconds in WAITS:
             made = wait(trajectory, seconds)
             crowd = certify_movers(made.control_points, made.knots, movers, radius)
@@ -89,6 +89,17 @@ def among(trajectory: Trajectory, query: Query, movers: FloatArray) -> Passage:
                     return Passage(made, True, still.obstacle_distance, crowd, evaluations)
     assert first is not None, "the trajectory itself comes first"
     return best or first
+
+
+def tried_too(query: Query) -> tuple[str, ...]:
+    """What `among` tries besides a trajectory as it is, in words."""
+    anew = () if len(query.via) else ("on other sides", "slower")
+    return (*anew, "later") if _waits(query) else anew
+
+
+def _waits(query: Query) -> bool:
+    """Whether one can stand at the start for a while."""
+    return not (query.start_velocity.any() or query.start_acceleration.any())
 
 
 def _ways(trajectory: Trajectory, query: Query, movers: FloatArray) -> Iterator[tuple[Trajectory, int]]:

@@ -39,6 +39,7 @@ from planner.distance import BOX, PRISM, SPHERE, Scene, beyond, plain_distance, 
 from planner.field import interpolate
 from planner.jit import leaf
 from planner.limits import Limits
+from planner.surroundings import surroundings
 from planner.worlds import World
 
 SAMPLES = 6
@@ -52,14 +53,17 @@ sqrt(2/(3 k R)) inside, a sixth of c at 0.45 m. With 30 every fourth best curve 
 with 50 one of fifty; with 60 ways through forests come out 0.1 % longer still."""
 SHORTEST = 0.1
 """Least D [m], so that a hop to the place one is at has a scale too."""
-FINEST, MOST_CELLS = 2.0, 30_000
-"""Cells a metre along each axis at most, and in all."""
+FINEST, MOST_CELLS, MOST_ITEMS = 2.0, 30_000, 4_000_000
+"""Cells a metre along each axis at most, and in all, and what all of them list."""
 
 IntArray = NDArray[np.int64]
 
 
 class Grid(NamedTuple):
-    """Solids near each cell of a regular grid over the map: cell i lists items[starts[i]:starts[i + 1]]."""
+    """Solids near each cell of a regular grid: cell i lists items[starts[i]:starts[i + 1]].
+
+    A point outside the grid belongs to the nearest cell, which so lists what is near such points too.
+    """
 
     origin: FloatArray  # (3,) [m]
     per_metre: float  # cells a metre
@@ -103,8 +107,8 @@ class CostTerms:
 
 
 @leaf
-def _cell_range(scene: Scene, k: int, axis: int, reach: float, grid: Grid) -> tuple[int, int]:
-    """First and one past the last cell along an axis that solid k comes within reach of."""
+def _cell_range(scene: Scene, k: int, axis: int, reach: float, walls: FloatArray, grid: Grid) -> tuple[int, int]:
+    """First and one past the last cell along an axis that solid k comes within reach of; see `Grid` for its border."""
     solids = scene.solids
     if solids[k, 0] == BOX:
         half = solids[k, 4 + axis]
@@ -116,20 +120,22 @@ def _cell_range(scene: Scene, k: int, axis: int, reach: float, grid: Grid) -> tu
         half = solids[k, 5]
     else:
         half = solids[k, 4]
-    low = math.floor((solids[k, 1 + axis] - half - reach - grid.origin[axis]) * grid.per_metre)
-    high = math.floor((solids[k, 1 + axis] + half + reach - grid.origin[axis]) * grid.per_metre) + 1
-    last = grid.shape[axis]
-    return min(max(low, 0), last), min(max(high, 0), last)
+    low, high = solids[k, 1 + axis] - half - reach, solids[k, 1 + axis] + half + reach
+    if low > walls[1, axis] or high < walls[0, axis]:
+        return 0, 0  # out of reach of the whole map
+    low, high = (low - grid.origin[axis]) * grid.per_metre, (high - grid.origin[axis]) * grid.per_metre
+    last = grid.shape[axis] - 1.0
+    return int(min(max(math.floor(low), 0.0), last)), int(min(max(math.floor(high), 0.0), last)) + 1
 
 
 @leaf
-def fill_grid(scene: Scene, reach: float, grid: Grid, counting: bool) -> None:
+def fill_grid(scene: Scene, reach: float, walls: FloatArray, grid: Grid, counting: bool) -> None:
     """Two passes over the same cells: count into `starts` (shifted by one), then write into `items`."""
     solids, ny, nz = scene.solids, grid.shape[1], grid.shape[2]
     for k in range(solids.shape[0]):
-        x0, x1 = _cell_range(scene, k, 0, reach, grid)
-        y0, y1 = _cell_range(scene, k, 1, reach, grid)
-        z0, z1 = _cell_range(scene, k, 2, reach, grid)
+        x0, x1 = _cell_range(scene, k, 0, reach, walls, grid)
+        y0, y1 = _cell_range(scene, k, 1, reach, walls, grid)
+        z0, z1 = _cell_range(scene, k, 2, reach, walls, grid)
         for ix in range(x0, x1):
             for iy in range(y0, y1):
                 for iz in range(z0, z1):
@@ -154,19 +160,31 @@ def sum_grid(starts: IntArray, sums: IntArray) -> None:
                 sums[ix, iy, iz] = beside + starts[cell] - column
 
 
-def build_grid(world: World, reach: float) -> Grid:
-    """The grid whose cells list every solid within `reach` [m] of any of their points."""
-    extent = world.walls[1] - world.walls[0]
+def build_grid(world: World, reach: float, around: FloatArray | None = None) -> Grid:
+    """The grid whose cells list every solid within `reach` [m] of any of their points, over what is around points.
+
+    Parameters
+    ----------
+    around : (m, 3)     points of the question, whose surroundings are divided into cells [m]; else all of the map.
+    """
+    near = world.walls if around is None else surroundings(world.walls, around)
+    extent = near[1] - near[0]
     per_metre = min(FINEST, float(MOST_CELLS / np.prod(np.maximum(extent, 1.0))) ** (1 / 3))
-    shape = np.maximum(np.ceil(extent * per_metre), 1).astype(np.int64)
-    starts = np.zeros(int(np.prod(shape)) + 1, dtype=np.int64)
-    sums = np.zeros(shape + 1, dtype=np.int64)
-    empty = Grid(world.walls[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64), sums)
-    fill_grid(world.scene, reach, empty, True)
-    ends = np.cumsum(starts)
+    while True:
+        while np.prod(np.maximum(np.ceil(extent * per_metre), 1.0)) > MOST_CELLS:  # an axis has a cell at least
+            per_metre *= 0.9
+        shape = np.maximum(np.ceil(extent * per_metre), 1.0).astype(np.int64)
+        starts = np.zeros(int(np.prod(shape)) + 1, dtype=np.int64)
+        sums = np.zeros(shape + 1, dtype=np.int64)
+        empty = Grid(near[0].copy(), per_metre, shape, starts, np.empty(0, dtype=np.int64), sums)
+        fill_grid(world.scene, reach, world.walls, empty, True)
+        ends = np.cumsum(starts)
+        if ends[-1] <= MOST_ITEMS or len(starts) == 2:
+            break
+        per_metre *= 0.5
     sum_grid(ends, sums)
     grid = empty._replace(starts=ends.copy(), items=np.empty(int(ends[-1]), dtype=np.int64))
-    fill_grid(world.scene, reach, grid, False)
+    fill_grid(world.scene, reach, world.walls, grid, False)
     return grid._replace(starts=ends)  # the second pass moved each start to its end
 
 

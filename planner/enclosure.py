@@ -8,8 +8,8 @@ include the goal's, there is no such curve, thick or thin, certified or not. The
 
 The planes are laid where solids make them tell most: at the faces of a box that just fits into each solid thickened by
 the radius. One layer of cells then closes a wall, however thin it is, and one cell of full height is enough for one of
-full height. Finer planes are laid between these in turn, as long as the reckoning takes at most MOST_DISTANCES. "Keeps
-the radius" is meant as `certificate` needs it, a rounding margin included.
+full height. Finer planes are laid between these in turn, as long as the reckoning takes at most MOST_DISTANCES and has
+at most MOST_CORNERS. "Keeps the radius" is meant as `certificate` needs it, a rounding margin included.
 """
 
 import itertools
@@ -33,6 +33,8 @@ PITCHES = (
 """Most that planes are apart, in turn [m]: upright ones, and level ones. Most obstacles stand."""
 MOST_DISTANCES = 30_000_000
 """Corners times solids of one reckoning: about 0.1 s, if all of them had to be asked for."""
+MOST_CORNERS = 8_000_000
+"""Of one reckoning: each takes some 30 bytes."""
 
 
 @leaf
@@ -128,14 +130,16 @@ def apart(
     ----------
     start, goal : (3,)    in the map, keeping what a proof needs [m].
     """
-    solids = len(world.scene.solids)
+    solids = max(len(world.owners), 1)  # the voxels count as one
+    most = min(MOST_DISTANCES // solids, MOST_CORNERS)
     faces = [face_planes(world, radius, axis) for axis in range(3)]
-    if math.prod(len(plane) for plane in faces) * solids > MOST_DISTANCES:
+    if math.prod(len(plane) for plane in faces) > most:
         faces = [plane[[0, -1]] for plane in faces]
     for upright, level in pitches:
-        planes = [subdivided(plane, pitch) for plane, pitch in zip(faces, (upright, upright, level), strict=True)]
-        if math.prod(len(plane) for plane in planes) * solids > MOST_DISTANCES:
+        pitched = list(zip(faces, (upright, upright, level), strict=True))
+        if math.prod(float(parts(plane, pitch).sum()) + 1.0 for plane, pitch in pitched) > most:
             return False
+        planes = [subdivided(plane, pitch) for plane, pitch in pitched]
         cells = np.empty((2, 3), dtype=np.int64)
         for axis, plane in enumerate(planes):
             ends = (start[axis], goal[axis])
@@ -172,9 +176,13 @@ def core(obstacle: Obstacle, radius: float, axis: int) -> tuple[float, float]:
     return math.inf, -math.inf
 
 
+def parts(planes: FloatArray, pitch: float) -> FloatArray:
+    """Into how many parts each gap (m - 1,) between planes (m,) is cut for gaps of at most `pitch` [m]."""
+    return np.maximum(np.ceil(np.diff(planes) / pitch), 1.0)
+
+
 def subdivided(planes: FloatArray, pitch: float) -> FloatArray:
     """The planes (m,) and as many between them as make gaps of at most `pitch` [m]."""
-    if not math.isfinite(pitch):
-        return planes
-    parts = [np.linspace(a, b, math.ceil((b - a) / pitch) + 1)[:-1] for a, b in itertools.pairwise(planes)]
-    return np.concatenate([*parts, planes[-1:]])
+    counts = parts(planes, pitch).astype(np.int64).tolist()
+    pieces = [np.linspace(a, b, n + 1)[:-1] for (a, b), n in zip(itertools.pairwise(planes), counts, strict=True)]
+    return np.concatenate([*pieces, planes[-1:]])

@@ -256,17 +256,21 @@ class NoTimingFound(NoPathFound):
 class BlockedByMovers(NoPathFound):
     """`curves` keep the radius from what stands still, none was proved to keep it from what moves.
 
-    None of the ways of flying them did: as they are, past the movers on other sides, slower, after a wait. `mover` is
-    in the way of the best of them at `time` [s].
+    None of the ways of flying them did that were `tried_too`, besides flying them as they are. `mover` is in the way of
+    the best of them at `time` [s].
     """
 
-    def __init__(self, curves: int, evaluations: int, mover: int, time: float, radius: float) -> None:
+    def __init__(
+        self, curves: int, evaluations: int, mover: int, time: float, radius: float, tried_too: tuple[str, ...] = ()
+    ) -> None:
         super().__init__(curves, evaluations, 0.0, radius, math.inf, math.inf)
-        self.args = (curves, evaluations, mover, time, radius)
-        self.curves, self.mover, self.time = curves, mover, time
+        self.args = (curves, evaluations, mover, time, radius, tried_too)
+        self.curves, self.mover, self.time, self.tried_too = curves, mover, time, tried_too
 
     def __str__(self) -> str:
+        *others, last = self.tried_too or ("",)
+        too = f", {', '.join(others)}{' and ' if others else ''}{last} too" if last else ""
         return (
             f"no path found among the movers: {self.curves} curves keep {self.radius:.3f} m from all that stands "
-            f"still, but mover {self.mover} is in the way at {self.time:.2f} s, on other sides, slower and later too"
+            f"still, but mover {self.mover} is in the way at {self.time:.2f} s{too}"
         )

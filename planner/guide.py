@@ -17,11 +17,12 @@ from planner.bspline import FloatArray
 from planner.distance import Scene
 from planner.jit import kernel
 from planner.lattice import BUFFER, DEEPEST, SLACK, Lattice, astar, build_lattice, burden_along, free
+from planner.surroundings import places
 from planner.worlds import Box, Cylinder, Obstacle, Prism, World
 
 WIDTHS = (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
-"""Distances between lattice points tried in turn [m]: those that give a map FEWEST_POINTS to MOST_POINTS; a larger map
-gets wider ones."""
+"""Distances between lattice points tried in turn [m]: those that give the place they are laid over FEWEST_POINTS to
+MOST_POINTS; a larger one gets wider ones. In a large map that is the question's surroundings first (see `places`)."""
 FEWEST_POINTS, MOST_POINTS = 5_000, 2_000_000
 STOREYS = 2.0
 """Up and down the points of all but the finest lattice are this many times as far apart. Where all that is solid stands
@@ -96,7 +97,7 @@ def spread(path: FloatArray, count: int) -> FloatArray:
 
 
 def widths(extent: FloatArray) -> list[float]:
-    """The widths for a map of that extent (3,), coarsest first and at least one, whatever its size [m]."""
+    """The widths for a place of that extent (3,), coarsest first and at least one, whatever its size [m]."""
     fitting = [width for width in WIDTHS if FEWEST_POINTS <= _points(extent, width) <= MOST_POINTS]
     if not fitting and _points(extent, WIDTHS[-1]) < FEWEST_POINTS:
         return [WIDTHS[-1]]
@@ -130,11 +131,12 @@ class Guides:
     """
 
     def __init__(self, world: World, start: FloatArray, goal: FloatArray, radius: float) -> None:
-        self.scene, self.radius = world.scene, radius
-        self.low, self.high = world.walls[0] + radius, world.walls[1] - radius
+        self.scene, self.radius, self.obstacles = world.scene, radius, world.obstacles
         self.ends = np.array([start, goal], dtype=np.float64)
-        self.widths = widths(self.high - self.low)
-        self.upright = all(_stands(obstacle, self.low[2], self.high[2]) for obstacle in world.obstacles)
+        room = np.array([[radius], [-radius]])
+        self.levels = [  # where each lattice lies, and its width
+            (place, width) for place in places(world.walls + room, self.ends) for width in widths(place[1] - place[0])
+        ]
         self.level = -1
         self.lattice: Lattice | None = None
         self.found: list[FloatArray] = []  # (PLACES, 3) along each way so far on this lattice
@@ -142,23 +144,24 @@ class Guides:
     @property
     def width(self) -> float:
         """Of the finest lattice looked at [m]."""
-        return self.widths[max(self.level, 0)]
+        return min(width for _, width in self.levels[: max(self.level, 0) + 1])
 
     @property
     def finest(self) -> bool:
-        """Whether no finer lattice is left."""
-        return self.level == len(self.widths) - 1
+        """Whether no further lattice is left."""
+        return self.level == len(self.levels) - 1
 
     def refine(self) -> None:
-        """Go on with the next finer lattice, all ways new on it; call it first of all."""
+        """Go on with the next lattice, all ways new on it; call it first of all."""
         self.level += 1
         self.found.clear()
-        width = np.full(3, self.width)
-        if self.upright:
-            width[2] = max((self.high[2] - self.low[2]) / 2.0, 1e-9)
-        elif not self.finest:
+        place, pitch = self.levels[self.level]
+        (low, high), width = place, np.full(3, pitch)
+        if all(_stands(obstacle, low[2], high[2]) for obstacle in self.obstacles):
+            width[2] = max((high[2] - low[2]) / 2.0, 1e-9)
+        elif self.level + 1 < len(self.levels) and self.levels[self.level + 1][0] is place:
             width[2] *= STOREYS
-        self.lattice = build_lattice(self.low, self.high, self.ends, width)
+        self.lattice = build_lattice(low, high, self.ends, width)
 
     def another(self, longest: float = math.inf) -> Guide | None:
         """One more way on this lattice, no lattice path of it longer than `longest` [m]; None when the search ends with

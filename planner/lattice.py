@@ -1,8 +1,9 @@
 """A* on a lattice of points in the free space, by edges that are proved clear.
 
-The lattice fills the map less the radius. An edge to one of the 26 neighbours is free when all of it keeps the radius,
-proved with the 1-Lipschitz distance: no solid is too thin to be seen. Edges nearer than BUFFER beyond the radius, to
-walls of the map too, count up to CAUTION times longer, so that the way leads through the middle of what is narrow.
+The lattice fills the map less the radius, or a part of it. An edge to one of the 26 neighbours is free when all of it
+keeps the radius, proved with the 1-Lipschitz distance: no solid is too thin to be seen. Edges nearer than BUFFER beyond
+the radius, to walls of the map too, count up to CAUTION times longer, so that the way leads through the middle of what
+is narrow.
 Hart, Nilsson & Raphael 1968; the heuristic is the straight distance.
 """
 
@@ -84,13 +85,18 @@ def astar(scene: Scene, lattice: Lattice, radius: float, longest: float) -> NDAr
     here, there, gaps = np.empty(3), np.empty(3), np.empty((2, DEEPEST))
     cost, run = np.full(nx * ny * nz, np.inf), np.empty(nx * ny * nz)  # burdened, and as the crow flies [m]
     parent = np.full(nx * ny * nz, -1, dtype=np.int64)
-    at = np.empty((2, 3), dtype=np.int64)
+    at, spares = np.empty((2, 3), dtype=np.int64), np.empty(2)
     for e in range(2):
         for a in range(3):
             at[e, a] = min(max(int((ends[e, a] - origin[a]) / step[a] + 0.5), 0), lattice.shape[a] - 1)
     begin, target = (at[0, 0] * ny + at[0, 1]) * nz + at[0, 2], (at[1, 0] * ny + at[1, 1]) * nz + at[1, 2]
     for e, node in ((0, begin), (1, target)):
         distance[node], _ = nearest_solid(scene, ends[e, 0], ends[e, 1], ends[e, 2])
+        spares[e] = distance[node] - radius
+    if begin == target and not free(
+        scene, radius + min(0.0, min(spares[0], spares[1]) - 1e-9), ends[0], ends[1], 0.0, 0.0, gaps
+    ):
+        return np.empty(0, dtype=np.int64)  # one point stands for both, and they do not see each other
     gx, gy, gz = ox + at[1, 0] * sx, oy + at[1, 1] * sy, oz + at[1, 2] * sz
     ways = np.empty((3, 3, 3))
     for a in range(3):

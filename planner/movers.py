@@ -28,6 +28,7 @@ MOST_MOVERS = 10_000
 FASTEST, LONGEST = 1e4, 1e6
 """Bounds on a mover's speed and growth [m/s] and on its size [m]: far above any, and products stay exact enough."""
 MOST_PIECES = 20_000
+"""That a trajectory may be cut into for the proof against one mover, those that it has already apart."""
 DEEPEST = 40
 SAMPLES = 6
 """Looks at each span before its proof, so that what is hit is soon known."""
@@ -119,13 +120,18 @@ class MovingBox:
 Mover = MovingSphere | MovingBox
 
 
-def table(movers: Sequence[Mover]) -> FloatArray:
-    """Movers as the kernels read them, (k, WIDTH).
+def table(movers: Sequence[Mover] | None) -> FloatArray:
+    """Movers as the kernels read them, (k, WIDTH); None is none.
 
     Raises
     ------
     ValueError : more than MOST_MOVERS of them, or something else than a mover (its index is named).
+    TypeError : no sequence.
     """
+    if movers is None:
+        movers = ()
+    if not isinstance(movers, Sequence):
+        raise TypeError(f"movers: expected a sequence of MovingSphere and MovingBox, found {movers!r}")
     if len(movers) > MOST_MOVERS:
         raise ValueError(f"movers: expected at most {MOST_MOVERS}, found {len(movers)}")
     for index, mover in enumerate(movers):
@@ -206,11 +212,12 @@ def prove_movers(
     begin, end = np.empty(DEEPEST + 1), np.empty(DEEPEST + 1)
     e = np.empty((4, 3))
     seen, index, when = nearest_mover(pieces, times, m)
-    bound, looked = np.inf, 0
+    bound = np.inf
     if seen < need:
         return -np.inf, seen, index, when
     for k in range(m.shape[0]):
         wx, wy, wz, stamp, until = m[k, 7], m[k, 8], m[k, 9], m[k, 11], m[k, 12]
+        cuts = 0  # counted for each mover, so that it does not matter how many others there are and in which order
         for first in range(pieces.shape[0]):
             if times[first] > until:
                 break
@@ -222,7 +229,6 @@ def prove_movers(
                 a, b, q = begin[top], end[top], stack[top]
                 if a > until:
                     continue
-                looked += 1
                 for j in range(4):  # the mover's own frame: xi of a Bezier piece
                     s = a + (b - a) * (j / 3.0) - stamp
                     e[j, 0] = q[j, 0] - m[k, 1] - wx * s
@@ -240,17 +246,21 @@ def prove_movers(
                     plane = min(plane, gx * x + gy * y + gz * z)
                 low = d + max(plane, -math.sqrt(reach))
                 middle = 0.5 * (a + b)
+                at = middle if middle <= until else a
                 if middle <= until:
                     d, _, _, _ = grown_distance(m, k, m[k, 10] * abs(middle - stamp), cx, cy, cz)
-                    if d < seen:
-                        seen, index, when = d, k, middle
-                    if d < need:
-                        return -np.inf, seen, index, when
+                else:  # the prediction ends within the piece, and holds where this begins
+                    d, _, _, _ = mover_distance(m, k, a, q[0, 0], q[0, 1], q[0, 2])
+                if d < seen:
+                    seen, index, when = d, k, at
+                if d < need:
+                    return -np.inf, seen, index, when
                 if low >= max(need, seen - tolerance):
                     bound = min(bound, low)
                     continue
-                if depth[top] >= DEEPEST - 1 or looked >= MOST_PIECES:
-                    return -np.inf, seen, index, when
+                if depth[top] >= DEEPEST - 1 or cuts >= MOST_PIECES:
+                    return -np.inf, seen, k, at
+                cuts += 1
                 right = stack[top + 1]
                 for i in range(3):  # de Casteljau at one half; the left half replaces q on the stack
                     b0, b1, b2, b3 = q[0, i], q[1, i], q[2, i], q[3, i]
@@ -310,5 +320,8 @@ def certify_movers(
         pieces = np.concatenate([pieces, np.tile(control_points[-1], (1, 4, 1))])
         times = np.append(times, times[-1] + hold)
     margin = rounding(control_points, movers, float(times[-1]))
-    low, _, mover, when = prove_movers(pieces, times, movers, radius + 2.0 * margin, tolerance)
+    need = radius + 2.0 * margin
+    low, seen, mover, when = prove_movers(pieces, times, movers, need, tolerance)
+    if low < need <= seen:  # how near it comes took too many pieces; whether it is too near may take few
+        low, _, mover, when = prove_movers(pieces, times, movers, need, np.inf)
     return MoverProof(bool(low - margin >= radius), low - margin, int(mover), float(when))

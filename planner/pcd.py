@@ -1,8 +1,9 @@
 """Clouds in PCD files (Point Cloud Library, version 0.7 and before), `ascii` and `binary`.
 
 A header of lines (VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, POINTS, DATA), then the points. Only
-the fields x, y and z are read. A point with a NaN is a pixel without return and left out, as is usual. VIEWPOINT says
-where the sensor was and moves no point. `binary_compressed` is refused by name.
+the fields x, y and z are read. A point with a NaN is a pixel without return and left out, as is usual. VIEWPOINT
+says where the sensor was and how it was turned; the format leaves open whether the points are told from there, so any
+but the identity is refused. So is `binary_compressed`, by name.
 """
 
 import io
@@ -21,6 +22,8 @@ MOST_FILE_BYTES = 2_000_000_000
 VERSIONS = ("0.7", ".7", "0.6", ".6", "0.5", ".5")
 SIZES = {"F": (4, 8), "I": (1, 2, 4, 8), "U": (1, 2, 4, 8)}
 MOST_FIELDS, MOST_COUNT = 64, 4096
+IDENTITY = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+"""Of a VIEWPOINT: where, and a quaternion w x y z."""
 
 
 def read_pcd(path: str | Path) -> FloatArray:
@@ -57,6 +60,8 @@ def read_pcd(path: str | Path) -> FloatArray:
         if names.count(axis) != 1 or counts[names.index(axis)] != 1:
             raise WorldFileError(file, "FIELDS", " ".join(names), f"{axis} once, with COUNT 1")
         places.append(names.index(axis))
+    if "VIEWPOINT" in header:
+        _no_viewpoint(file, header["VIEWPOINT"])
     total = _points(file, header)
     encoding = " ".join(header["DATA"])
     if encoding == "ascii":
@@ -125,6 +130,18 @@ def _whole(file: str, key: str, text: str, most: int, least: int = 1) -> int:
     if not least <= number <= most:
         raise WorldFileError(file, key, text[:20], f"a whole number of {least} to {most}")
     return number
+
+
+def _no_viewpoint(file: str, words: list[str]) -> None:
+    """Refuse a sensor that was not at the origin of the points' frame, or turned in it."""
+    try:
+        same = tuple(float(word) for word in words) in (IDENTITY, tuple(-v for v in IDENTITY))
+    except ValueError:
+        same = False
+    if not same:
+        raise WorldFileError(
+            file, "VIEWPOINT", " ".join(words)[:80] or "nothing", "0 0 0 1 0 0 0: move the points into the map's frame"
+        )
 
 
 def _points(file: str, header: dict[str, list[str]]) -> int:

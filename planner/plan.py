@@ -13,13 +13,14 @@ from functools import partial
 import numpy as np
 
 from planner import errors
-from planner.among import Passage, among
+from planner.among import Passage, among, tried_too
 from planner.baselines.bezier import find_bezier
 from planner.baselines.lbsgf import find_lbsgf
 from planner.baselines.parents import find_aoa, find_roa
 from planner.baselines.polyline import find_astar, find_jps
 from planner.bspline import FloatArray
 from planner.certificate import Certificate, certify, end_needed
+from planner.checks import as_kind, as_number, as_seed
 from planner.distance import nearest_exact
 from planner.enclosure import PITCHES, apart
 from planner.guide import Guides
@@ -102,8 +103,8 @@ def plan(
     start_velocity: Vector = (0.0, 0.0, 0.0),
     start_acceleration: Vector = (0.0, 0.0, 0.0),
     goal_velocity: Vector = (0.0, 0.0, 0.0),
-    via: Sequence[Vector] | FloatArray = (),
-    movers: Sequence[Mover] = (),
+    via: Sequence[Vector] | FloatArray | None = (),
+    movers: Sequence[Mover] | None = (),
 ) -> Plan:
     """Plan from `start` to `goal`, from rest to rest unless told otherwise.
 
@@ -117,14 +118,15 @@ def plan(
     method : str            one of METHODS.
     start_velocity, start_acceleration : (3,)    at the start [m/s, m/s^2].
     goal_velocity : (3,)    at the goal, which is passed without acceleration [m/s].
-    via : (m, 3)            points that the curve passes, in this order, MOST_VIA of them at most [m].
+    via : (m, 3)            points that the curve passes, in this order, MOST_VIA of them at most [m]; None is none.
     movers : sequence of MovingSphere or MovingBox    missed too while the trajectory lasts, each where it is predicted
         by then, in the trajectory's time; nothing is claimed about standing at the goal afterwards.
 
     Raises
     ------
-    ValueError : an unknown method, a radius that is not finite and at least 0, a point that is not three numbers, or
-        too many via points.
+    ValueError : an unknown method, a radius that is not finite and at least 0, a negative seed, a point that is not
+        three finite numbers, or too many via points or movers.
+    TypeError : a world, limits, a radius, a seed, via points or movers of another type.
     StateBeyondLimits : a velocity or an acceleration beyond its limit, and by how much.
     StartInCollision, GoalInCollision, StartOutOfBounds, GoalOutOfBounds : which obstacle or wall, and by how much; an
         end at the radius exactly is refused too, since rounding leaves nothing to prove it by.
@@ -136,8 +138,9 @@ def plan(
     watch = Stopwatch()
     if method not in METHODS:
         raise ValueError(f"method: expected one of {', '.join(METHODS)}, found {method!r}")
-    if not (np.isfinite(radius) and radius >= 0.0):
-        raise ValueError(f"radius: expected a finite number of at least 0 m, found {radius}")
+    as_kind("world", world, World)
+    as_kind("limits", limits, Limits)
+    radius, seed = as_number("radius", radius, "m"), as_seed("seed", seed)
     query = _asked(world, start, goal, limits, radius, seed, start_velocity, start_acceleration, goal_velocity, via)
     crowd = table(movers)
     effort, curves = Effort(), 0
@@ -187,15 +190,18 @@ def _asked(
     start_velocity: Vector,
     start_acceleration: Vector,
     goal_velocity: Vector,
-    via: Sequence[Vector] | FloatArray,
+    via: Sequence[Vector] | FloatArray | None,
 ) -> Query:
     """The arguments of `plan` in arrays, every end and via point and every state checked; raises as `plan`."""
     a, b = as_point("start", start), as_point("goal", goal)
     check_endpoint(world, a, radius, errors.StartInCollision, errors.StartOutOfBounds)
     check_endpoint(world, b, radius, errors.GoalInCollision, errors.GoalOutOfBounds)
+    via = () if via is None else via
+    if not isinstance(via, Sequence | np.ndarray) or isinstance(via, str):
+        raise TypeError(f"via: expected a sequence of points, found {via!r}")
+    if len(via) > MOST_VIA:
+        raise ValueError(f"via: expected at most {MOST_VIA} points, found {len(via)}")
     through = [as_point(f"via point {index}", point) for index, point in enumerate(via)]
-    if len(through) > MOST_VIA:
-        raise ValueError(f"via: expected at most {MOST_VIA} points, found {len(through)}")
     for index, point in enumerate(through):
         check_endpoint(
             world,
@@ -240,7 +246,8 @@ def _passing(made: Plan, found: Passage, effort: Effort, watch: Stopwatch, radiu
 def _blocked(proofs: list[MoverProof], effort: Effort, query: Query) -> errors.BlockedByMovers:
     """Of the first trajectory: the shortest."""
     first = proofs[0]
-    return errors.BlockedByMovers(len(proofs), effort.evaluations, first.mover, first.time, query.radius)
+    ways = tried_too(query)
+    return errors.BlockedByMovers(len(proofs), effort.evaluations, first.mover, first.time, query.radius, ways)
 
 
 def _state(name: str, value: Vector, limit: float) -> FloatArray:

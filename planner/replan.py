@@ -22,7 +22,8 @@ import numpy as np
 from planner.backup import dash, escape
 from planner.bspline import FloatArray
 from planner.certificate import end_needed, needed
-from planner.errors import GoalInCollision, GoalOutOfBounds, PlannerError
+from planner.checks import as_kind, as_number
+from planner.errors import EndpointError, GoalInCollision, GoalOutOfBounds, PlannerError
 from planner.limits import Limits
 from planner.movers import UNTIL, Mover, MovingSphere, rounding, table
 from planner.plan import check_endpoint, plan
@@ -46,6 +47,8 @@ BETTER = 0.02
 """How much farther from movers [m] a plan must keep to be worth a switch."""
 LOOK = 2.0
 """How far ahead the vehicle's place on its route is looked for, when it has left it [s]."""
+STILL = 1e-6
+"""Norms of the velocity [m/s] and acceleration [m/s^2] that count as rest."""
 _STILL = np.zeros(3)
 _DIRECTIONS = np.array([(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], float)
 _DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1)[:, None]
@@ -83,7 +86,7 @@ class Decision:
     certified: bool  # proved: clear of solids, within the limits, and clear of movers as far as they are predicted
     clearance: float  # least distance to a predicted mover on samples, less the radius [m]; inf without any
     mover: int  # which one, -1 without any
-    reason: str
+    reason: str  # why; and what is wrong with the goal, when the world has changed so
     backup: Flight | None  # a proved stop that can be flown from the next tick's switch on, when there is one
     evaluations: int  # of the cost
 
@@ -153,6 +156,12 @@ class Replanner:
     trajectory : Trajectory     to rest at the goal; flown from `start_s` [s] on.
     settings : Settings
 
+    Raises
+    ------
+    ValueError : a radius that is not finite and at least 0, a start that is not finite, or a trajectory that does not
+        end at rest: the vehicle is taken to stand there afterwards.
+    TypeError : a world, limits, a radius or a trajectory of another type.
+
     After a step `flight` is what to fly from `flight.start_s` on, `backup` the stop kept ready.
     """
 
@@ -165,7 +174,16 @@ class Replanner:
         start_s: float = 0.0,
         settings: Settings | None = None,
     ) -> None:
-        self.world, self.limits, self.radius = world, limits, float(radius)
+        as_kind("world", world, World)
+        as_kind("limits", limits, Limits)
+        as_kind("trajectory", trajectory, Trajectory)
+        if not np.isfinite(start_s):
+            raise ValueError(f"start: expected a finite number of seconds, found {start_s}")
+        end = trajectory.state(trajectory.duration)
+        speed, push = float(np.linalg.norm(end.velocity)), float(np.linalg.norm(end.acceleration))
+        if not (speed <= STILL and push <= STILL):
+            raise ValueError(f"trajectory: expected rest at its end, found {speed:.3g} m/s and {push:.3g} m/s^2")
+        self.world, self.limits, self.radius = world, limits, as_number("radius", radius, "m")
         self.settings = settings or Settings()
         self.flight = Flight(trajectory, start_s)
         self.goal = trajectory.position(trajectory.duration)
@@ -176,6 +194,7 @@ class Replanner:
         self._pace = _Pace(self.settings.patience)
         self._off = 0  # steps without a way to the goal
         self._changed = False  # goal or world, since the last proved way
+        self._covered = ""  # what is wrong with the goal since the world has changed
         self._evaluations = 0
 
     def retarget(self, goal: Sequence[float] | FloatArray) -> None:
@@ -188,13 +207,25 @@ class Replanner:
         point = as_point("goal", goal)
         check_endpoint(self.world, point, self.radius, GoalInCollision, GoalOutOfBounds)
         self.goal = np.array(point)
+        self._covered = ""
         self._changed = True
         self.flight = replace(self.flight, to_goal=False)
 
     def remap(self, world: World) -> None:
-        """Another world, from the next step on."""
+        """Another world, from the next step on.
+
+        It is taken in any case, since it is what there is. When the goal is too near to an obstacle or a wall of it,
+        every decision's `reason` says so, and by how much, until the goal or the world is another again.
+        """
+        as_kind("world", world, World)
         self.world = world
         self._changed = True
+        self._covered = ""
+        x, y, z = self.goal.tolist()
+        try:
+            check_endpoint(world, (x, y, z), self.radius, GoalInCollision, GoalOutOfBounds)
+        except EndpointError as error:
+            self._covered = str(error)
 
     def step(self, now_s: float, movers: Sequence[Mover] = ()) -> Decision:
         """Decide at `now_s` what to fly from `now_s + latency` on.
@@ -307,7 +338,8 @@ class Replanner:
                 if found.clear:
                     backup = Flight(Trajectory(found.points, found.knots), after, to_goal=False)
                     break
-        return Decision(kind, flight, certified, clearance, int(mover), why, backup, self._evaluations)
+        reason = f"{why}; {self._covered}" if self._covered else why
+        return Decision(kind, flight, certified, clearance, int(mover), reason, backup, self._evaluations)
 
     def _fly(
         self, m: _Moment, remaining: float, bump: FloatArray = _STILL, bump_at: float = 0.0, rounds: int = ROUNDS

@@ -208,7 +208,7 @@ class Search:
         wanted = max(self.radius + max(0.05, 0.4 * self.radius), NEAREST)
         reach = max(min(wanted, self.radius + how.buffer), length / ((n - DEGREE) * SAMPLES))
         if reach > self.grid_reach:
-            self.grid, self.grid_reach = build_grid(self.world, reach), reach
+            self.grid, self.grid_reach = build_grid(self.world, reach, self.query.corners), reach
         return SplineCost(
             self.world,
             self.query.start,

@@ -116,6 +116,10 @@ KINDS: dict[type[Obstacle], str] = {
     PointCloud: "point cloud",
 }
 """What each is called in messages."""
+FARTHEST = 1e9
+"""Largest coordinate of a map and of what is in it [m]. A proof's margin for rounding is a centimetre there; it grows
+with the largest coordinate of all, so what is farther off would spoil the proofs of what is near.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,8 +131,8 @@ class World:
 
     Raises
     ------
-    ValueError : bounds that are not low < high on every axis, an obstacle of an unknown kind (its index is named), or
-        voxels that cannot share a field (see `voxels.merge`).
+    ValueError : bounds that are not low < high on every axis, an obstacle of an unknown kind or one that reaches beyond
+        FARTHEST (its index is named), or voxels that cannot share a field (see `voxels.merge`).
     """
 
     bounds: tuple[Point, Point]
@@ -143,11 +147,20 @@ class World:
         low, high = as_point("bounds low", low), as_point("bounds high", high)
         if not all(a < b for a, b in zip(low, high, strict=True)):
             raise ValueError(f"bounds: expected low < high on every axis, found {low} and {high}")
+        far = max(abs(v) for v in (*low, *high))
+        if far > FARTHEST:
+            raise ValueError(f"bounds: expected coordinates of at most {FARTHEST:g} m, found {far:g}")
         obstacles: Iterable[object] = self.obstacles
         for index, obstacle in enumerate(obstacles):
             if not isinstance(obstacle, Obstacle):
                 known = ", ".join(kind.__name__ for kind in KINDS)
                 raise ValueError(f"obstacle {index}: expected one of {known}, found {obstacle!r}")
+            far = _farthest(obstacle)
+            if not far <= FARTHEST:
+                kind = KINDS[type(obstacle)]
+                raise ValueError(
+                    f"obstacle {index} ({kind}): expected coordinates of at most {FARTHEST:g} m, found {far:g}"
+                )
         object.__setattr__(self, "bounds", (low, high))
         object.__setattr__(self, "obstacles", tuple(self.obstacles))
         scene, owners = _scene(self.obstacles)
@@ -184,6 +197,22 @@ class World:
         p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
         least: FloatArray = np.minimum(p - self.walls[0], self.walls[1] - p).min(axis=1)
         return least
+
+
+def _farthest(obstacle: Obstacle) -> float:
+    """Largest absolute coordinate of an obstacle [m]."""
+    match obstacle:
+        case Box(lower, upper):
+            return max(abs(v) for v in (*lower, *upper))
+        case Cylinder(centre, radius, z):
+            return max(*(abs(v) + radius for v in centre), *(abs(v) for v in z))
+        case Sphere(centre, radius):
+            return max(abs(v) + radius for v in centre)
+        case Prism(corners, z):
+            return max(abs(v) for pair in (*corners, z) for v in pair)
+    lattice = obstacle.field
+    far = lattice.origin + np.array(lattice.occupied.shape) * lattice.resolution
+    return float(np.maximum(np.abs(lattice.origin), np.abs(far)).max()) if lattice.occupied.size else 0.0
 
 
 def _scene(obstacles: Sequence[Obstacle]) -> tuple[Scene, tuple[int, ...]]:

@@ -24,7 +24,7 @@ from planner.jit import kernel
 from planner.worlds import World
 
 WIDTHS = (0.2, 0.1, 0.05)
-"""Cell widths tried in turn until there is a way [m]; a map too large for the first gets wider cells."""
+"""Cell widths tried in turn until there is a way [m]; a place too large for the first gets wider cells."""
 MOST_CELLS = 2_000_000
 BLOCK = 4
 """Cells a side of the blocks that are looked at as one first."""
@@ -37,7 +37,7 @@ IntArray = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellGrid:
-    """Free and blocked cells of a map."""
+    """Free and blocked cells of a map or of a part of it."""
 
     free: ByteArray  # (nx, ny, nz) 1 where free
     origin: FloatArray  # (3,) centre of the first cell [m]
@@ -75,7 +75,7 @@ def mark_free(scene: Scene, origin: FloatArray, width: float, need: float, free:
 
 
 def widths(extent: FloatArray) -> list[float]:
-    """The cell widths for a map of that extent (3,), widest first and at least one [m]."""
+    """The cell widths for a place of that extent (3,), widest first and at least one [m]."""
     fitting = [width for width in WIDTHS if _cells(extent, width) <= MOST_CELLS]
     wider = WIDTHS[0]
     while not fitting:
@@ -89,10 +89,15 @@ def _cells(extent: FloatArray, width: float) -> float:
     return float(np.prod(np.floor(extent / width) + 1.0))
 
 
-def build(world: World, start: FloatArray, radius: float, width: float) -> CellGrid:
-    """The grid of cells `width` [m] wide that has a centre at `start` (3,), for a radius [m]."""
+def build(world: World, start: FloatArray, radius: float, width: float, place: FloatArray | None = None) -> CellGrid:
+    """The grid of cells `width` [m] wide that has a centre at `start` (3,), for a radius [m].
+
+    place (2, 3) is the part of the map that it fills, all of it if not given [m].
+    """
     room = needed(world, radius)
     low, high = world.walls[0] + room, world.walls[1] - room
+    if place is not None:
+        low, high = np.maximum(low, place[0]), np.minimum(high, place[1])
     origin = start - width * np.floor(np.maximum(start - low, 0.0) / width)
     shape = np.floor(np.maximum(high - origin, 0.0) / width).astype(np.int64) + 1
     free = np.empty(tuple(shape), dtype=np.uint8)

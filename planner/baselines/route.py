@@ -11,6 +11,7 @@ from planner.bspline import FloatArray
 from planner.enclosure import PITCHES, apart
 from planner.query import Query
 from planner.shape import Effort
+from planner.surroundings import places
 
 Shortest = Callable[[ByteArray, IntArray, IntArray], tuple[IntArray, float, int]]
 """`astar.shortest` or `jps.shortest`."""
@@ -21,13 +22,20 @@ STRAIGHT = 1e-9
 def route(query: Query, effort: Effort, shortest: Shortest) -> FloatArray:
     """Corners (m, 3) [m] from start to goal along the widest cells that show a way; every leg keeps the radius.
 
+    In a large map the surroundings of the ends are looked at first (see `surroundings`).
+
     Raises
     ------
     NoPathFound : the narrowest cells show none either.
     """
-    world, radius, width = query.world, query.radius, math.inf
-    for width in widths(world.walls[1] - world.walls[0]):
-        grid = build(world, query.start, radius, width)
+    world, radius = query.world, query.radius
+    tried = [
+        (place, width)
+        for place in places(world.walls, np.array([query.start, query.goal]))
+        for width in widths(place[1] - place[0])
+    ]
+    for place, width in tried:
+        grid = build(world, query.start, radius, width, place)
         first = cell_of(grid, world, radius, query.start)
         last = cell_of(grid, world, radius, query.goal)
         if first is None or last is None:
@@ -43,6 +51,7 @@ def route(query: Query, effort: Effort, shortest: Shortest) -> FloatArray:
             if len(corners) > 2 and at(corners[1], centres[0]) and sees(world, radius, corners[0], corners[2]):
                 corners = np.delete(corners, 1, axis=0)
             return corners
+    width = min(width for _, width in tried)
     closed = apart(world, query.start, query.goal, radius, PITCHES)
     raise errors.NoPathFound(effort.tried, effort.evaluations, math.inf, radius, math.inf, width, proved=closed)
 

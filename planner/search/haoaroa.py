@@ -45,7 +45,8 @@ from planner.search.asktell import ITERATIONS, POPULATION, AskTell, Best
 FloatArray = NDArray[np.float64]
 
 C1, C2 = 2.0, 1.5
-_AOA_C1, _AOA_C2, _AOA_C3, _AOA_C4 = 2.0, 6.0, 2.0, 0.5  # Hashim 2021, C3 of 1..2 and C4 of 0.5..2
+# Hashim 2021, C4 of 0.5..2. Its C3 = 2 makes tau = min(C3 TF, 1) one wherever it stands, since TF > 1/2 there.
+_AOA_C1, _AOA_C2, _AOA_C4 = 2.0, 6.0, 0.5
 _GROUPS = 4
 _EXTRA = 8  # uniforms a candidate takes besides two a coordinate
 
@@ -143,8 +144,7 @@ def move(p: Population, t: int, last: int, uniforms: FloatArray, with_gradient: 
             elif explore:
                 buoyancy = _AOA_C1 * r2 * p.traits[i, 2] * d * (random[k] - x[k])
             else:
-                tau = min(_AOA_C3 * TF, 1.0)
-                buoyancy = sign * _AOA_C2 * r2 * p.traits[i, 2] * d * tau * (leader[k] - x[k])
+                buoyancy = sign * _AOA_C2 * r2 * p.traits[i, 2] * d * (leader[k] - x[k])
             v[k] = w * v[k] + pull + buoyancy
             x[k] += v[k]  # Eq. 49
             if x[k] < p.lower[k]:

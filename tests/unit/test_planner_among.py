@@ -79,6 +79,35 @@ def test_a_mover_that_stays_in_the_only_way_is_named():
     assert again.mover == 1
 
 
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ({}, "on other sides, slower and later too"),
+        ({"via": [(4.0, 2.0, 0.6)]}, "later too"),
+        ({"start_velocity": (0.5, 0.0, 0.0)}, "on other sides and slower too"),
+        ({"start_acceleration": (0.5, 0.0, 0.0)}, "on other sides and slower too"),
+        ({"start_velocity": (0.5, 0.0, 0.0), "via": [(4.0, 2.0, 0.6)]}, None),
+    ],
+    ids=["rest", "via", "moving", "pushed", "moving and via"],
+)
+def test_only_what_was_tried_among_movers_is_told_as_tried(more, told):
+    plug = MovingBox((5.0, 1.4, 0.0), (6.0, 2.6, 1.2), (0.0, 0.0, 0.0))
+    with pytest.raises(BlockedByMovers) as caught:
+        plan(CORRIDOR, (1, 2, 0.6), (11, 2, 0.6), LIMITS, RADIUS, movers=[plug], **more)
+    for error in (caught.value, pickle.loads(pickle.dumps(caught.value))):
+        assert str(error).endswith(f" s, {told}" if told else " s")
+
+
+def test_a_near_mover_after_a_thousand_far_ones_is_passed_as_if_it_came_first():
+    rng = np.random.default_rng(0)
+    far = [MovingSphere(tuple(p), (0.0, 0.0, 0.0), 0.2) for p in rng.uniform((0, 30, 0), (20, 60, 4), (1000, 3))]
+    near = MovingSphere((6.0, 6.8, 1.5), (0.0, -0.01, 0.0), 0.3)
+    ends = (1, 6, 1.5), (11, 6, 1.5)
+    made = [plan(OPEN, *ends, LIMITS, RADIUS, movers=crowd) for crowd in ([*far, near], [near, *far])]
+    assert all(p.certified for p in made)
+    assert made[0].trajectory == made[1].trajectory
+
+
 def test_waiting_is_standing_and_then_the_same_motion():
     first = plan(OPEN, (1, 6, 1.5), (11, 6, 1.5), LIMITS, RADIUS).trajectory
     later = wait(first, 1.5)

@@ -7,7 +7,7 @@ import pytest
 from scipy.ndimage import label
 
 from planner import Box, Cylinder, Prism, Sphere, VoxelGrid, World
-from planner.enclosure import PITCHES, apart
+from planner.enclosure import PITCHES, apart, blocked, parts, subdivided
 from planner.families import MAZES, maze
 
 BOUNDS = ((0, 0, 0), (12, 8, 3))
@@ -121,3 +121,51 @@ def test_nothing_is_proved_closed_that_a_fine_grid_shows_open(seed: int) -> None
     for a, b in rng.choice(free, (5, 2)) if len(free) else []:
         proved = apart(world, p[a], p[b], radius, PITCHES[:5])
         assert not (proved and groups[a] == groups[b])
+
+
+@pytest.mark.parametrize(("need", "shut"), [(0.69, False), (0.70, False), (0.85, False), (0.87, True)])
+def test_a_cell_whose_corners_are_near_to_different_solids_is_shut_only_if_all_of_it_is_near_to_its_middle(
+    need: float, shut: bool
+) -> None:
+    """A unit cube: a grain in its middle, one out beyond each corner. The middles of its edges are 0.707 from the one
+    and farther from the others."""
+    corners = np.array([[c & 1, (c >> 1) & 1, c >> 2] for c in range(8)], dtype=float)
+    beyond = 0.5 + (corners - 0.5) * (1.0 + 2.0 * 0.68 / math.sqrt(3.0))
+    grains = [Sphere((0.5, 0.5, 0.5), 1e-3), *(Sphere(tuple(p), 1e-3) for p in beyond)]
+    world = World(((-5, -5, -5), (5, 5, 5)), grains)
+    nearest = np.arange(1, 9)
+    assert (np.linalg.norm(corners - beyond, axis=1) - 1e-3 < need).all()
+    assert blocked(world.scene, corners, nearest, need) == shut
+    edge = np.array([0.5, 0.0, 0.0])
+    least = min(float(np.linalg.norm(edge - g.centre)) - g.radius for g in grains)
+    assert not (blocked(world.scene, corners, nearest, need) and least >= need)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_point_of_a_shut_cell_keeps_the_distance(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    inside = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, 15)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    unit = np.array([[c & 1, (c >> 1) & 1, c >> 2] for c in range(8)], dtype=float)
+    shut = 0
+    for _ in range(300):
+        size = rng.uniform(0.2, 1.0, 3)
+        centres = np.concatenate(
+            [size * rng.uniform(0.3, 0.7, (1, 3)), size * unit + rng.normal(scale=0.2, size=(8, 3))]
+        )
+        world = World(((-5, -5, -5), (5, 5, 5)), [Sphere(tuple(p), 1e-3) for p in centres])
+        away = np.linalg.norm((size * unit)[:, None] - centres, axis=2) - 1e-3
+        need = float(away.min(axis=1).max()) + rng.uniform(1e-3, 0.3)
+        if blocked(world.scene, size * unit, away.argmin(axis=1), need):
+            shut += 1
+            p = size * inside
+            assert (np.linalg.norm(p[:, None] - centres, axis=2).min(axis=1) - 1e-3).max() < need
+    assert shut > 10
+
+
+def test_planes_are_as_near_as_asked_and_keep_those_there_were() -> None:
+    planes = np.array([0.0, 0.3, 2.0, 2.05])
+    for pitch in (math.inf, 1.0, 0.25):
+        found = subdivided(planes, pitch)
+        assert np.isin(planes, found).all()
+        assert np.diff(found).max() <= max(pitch, 0.0) + 1e-12 or pitch == math.inf
+        assert len(found) == parts(planes, pitch).sum() + 1

@@ -67,6 +67,22 @@ def test_a_world_written_by_hand_is_read_with_the_files_beside_it(tmp_path: Path
     assert world.obstacles[3].resolution == 0.2
 
 
+@pytest.mark.parametrize(
+    "words", ["1 2 3 1 0 0 0", "0 0 1.5 1 0 0 0", "0 0 0 0.707 0 0 0.707", "0 0 0 1", "0 0 0 nan 0 0 0", "here", ""]
+)
+def test_a_cloud_told_from_a_sensor_somewhere_else_is_refused_with_what_to_do(tmp_path: Path, words: str) -> None:
+    (tmp_path / "scan.pcd").write_text(PCD.replace("VIEWPOINT 0 0 0 1 0 0 0", f"VIEWPOINT {words}"))
+    with pytest.raises(WorldFileError, match=r"VIEWPOINT: found .*, expected 0 0 0 1 0 0 0") as caught:
+        read_pcd(tmp_path / "scan.pcd")
+    assert "map's frame" in str(caught.value)
+
+
+@pytest.mark.parametrize("line", ["VIEWPOINT 0 0 0 -1 0 0 0\n", "VIEWPOINT 0.0 0.0 0.0 1.0 0.0 0.0 0.0\n", ""])
+def test_a_cloud_told_from_the_origin_is_read(tmp_path: Path, line: str) -> None:
+    (tmp_path / "scan.pcd").write_text(PCD.replace("VIEWPOINT 0 0 0 1 0 0 0\n", line))
+    np.testing.assert_allclose(read_pcd(tmp_path / "scan.pcd"), [[0.5, 0.25, 1]])
+
+
 def write_good(folder: Path) -> None:
     (folder / "world.yaml").write_text(GOOD)
     (folder / "scan.pcd").write_text(PCD)

@@ -99,6 +99,43 @@ def test_what_is_in_the_way_only_after_the_prediction_ends_is_not_held_against_a
     assert certify_movers(points, knots, table([MovingBox(**wall, until=2.5)]), 0.2).certified
 
 
+def test_a_mover_on_the_start_whose_prediction_ends_at_once_is_named_with_its_time():
+    knots = clamped_knots(8, 4.0)
+    points = greville(knots)[:, None] * np.array([1.0, 0.0, 0.0])
+    away = MovingSphere((0.0, 50.0, 0.0), (0.0, 0.0, 0.0), 0.1)
+    for until in (0.0, 1e-9, 1e-3):
+        proof = certify_movers(points, knots, table([away, MovingSphere((0, 0, 0), (0, 0, 0), 0.1, until=until)]), 0.2)
+        assert not proof.certified
+        assert proof.mover == 1
+        assert 0.0 <= proof.time <= until
+    assert certify_movers(points, knots, table([MovingSphere((0, 0.4, 0), (0, 0, 0), 0.1, until=0.0)]), 0.2).certified
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, math.inf])
+def test_how_many_others_there_are_and_in_which_order_does_not_matter(tolerance):
+    rng = np.random.default_rng(7)
+    points = np.cumsum(rng.normal(size=(40, 3)), axis=0)
+    knots = uneven_knots(rng, 40)
+    t = float(knots[20])
+    near = MovingBox(tuple(points[18] + (1.0, 1.0, 1.0)), tuple(points[18] + (1.2, 1.2, 1.2)), (0.1, 0.0, 0.0), stamp=t)
+    alone = certify_movers(points, knots, table([near]), 0.1, tolerance=tolerance)
+    assert alone.certified
+    middle = points.mean(axis=0)
+    others = rng.normal(size=(3000, 3))
+    others = middle + others / np.linalg.norm(others, axis=1)[:, None] * rng.uniform(40.0, 60.0, (3000, 1))
+    far = [MovingSphere(tuple(p), tuple(rng.normal(size=3)), 0.2) for p in others]
+    for crowd in ([near, *far], [*far, near], [*far[:1500], near, *far[1500:]]):
+        proof = certify_movers(points, knots, table(crowd), 0.1, tolerance=tolerance)
+        assert proof.certified
+        assert crowd[proof.mover] is near
+        assert proof.distance == pytest.approx(alone.distance, abs=1e-3 if tolerance < 1.0 else math.inf)
+    blocking = MovingSphere(tuple(points[0]), (0.0, 0.0, 0.0), 0.5)
+    for crowd in ([blocking, *far], [*far, blocking]):
+        proof = certify_movers(points, knots, table(crowd), 0.1, tolerance=tolerance)
+        assert not proof.certified
+        assert crowd[proof.mover] is blocking
+
+
 def test_standing_on_after_the_end_is_proved_when_asked_for():
     knots, points = clamped_knots(8, 1.0), np.zeros((8, 3))
     late = table([MovingSphere((3.0, 0.0, 0.0), (-1.0, 0.0, 0.0), 0.5)])
@@ -147,3 +184,6 @@ def test_a_table_takes_movers_alone_and_not_too_many():
         table([one, "tree"])
     with pytest.raises(ValueError, match="at most"):
         table([one] * (MOST_MOVERS + 1))
+    with pytest.raises(TypeError, match="movers: expected a sequence of MovingSphere and MovingBox, found MovingSph"):
+        table(one)
+    assert table(None).shape == table([]).shape

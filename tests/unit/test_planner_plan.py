@@ -353,3 +353,47 @@ def test_kernels_are_stamped_with_the_whole_package() -> None:
     from planner.cost import cost_gradient
 
     assert cost_gradient._cache._cache_file._source_stamp == _STAMP
+
+
+@pytest.mark.parametrize(
+    ("wrong", "kind", "message"),
+    [
+        ({"world": "forest"}, TypeError, r"world: expected a World, found 'forest'"),
+        ({"limits": (3, 6, 60)}, TypeError, r"limits: expected a Limits, found \(3, 6, 60\)"),
+        ({"radius": "0.3"}, TypeError, r"radius: expected a finite number of at least 0 m, found '0.3'"),
+        ({"radius": np.array([0.3])}, TypeError, r"radius: expected a finite number of at least 0 m, found array"),
+        ({"radius": None}, TypeError, r"radius: expected .*, found None"),
+        ({"radius": -0.1}, ValueError, r"radius: expected a finite number of at least 0 m, found -0.1"),
+        ({"radius": math.nan}, ValueError, r"radius: expected a finite number of at least 0 m, found nan"),
+        ({"seed": -1}, ValueError, r"seed: expected a whole number of at least 0, found -1"),
+        ({"seed": 1.5}, TypeError, r"seed: expected a whole number of at least 0, found 1.5"),
+        ({"seed": None}, TypeError, r"seed: expected a whole number of at least 0, found None"),
+        ({"start": None}, ValueError, r"start: expected three finite numbers, found None"),
+        ({"start": "123"}, ValueError, r"start: expected three finite numbers, found '123'"),
+        ({"goal": (1, "x", 2)}, ValueError, r"goal: expected three finite numbers, found \(1, 'x', 2\)"),
+        ({"goal": (1, math.nan, 2)}, ValueError, r"goal: expected three finite numbers, found \(1.0, nan, 2.0\)"),
+        ({"start_velocity": 1.0}, ValueError, r"start_velocity: expected three finite numbers, found 1.0"),
+        ({"via": (1, 2, 3)}, ValueError, r"via point 0: expected three finite numbers, found 1"),
+        ({"via": 7}, TypeError, r"via: expected a sequence of points, found 7"),
+        ({"via": "abc"}, TypeError, r"via: expected a sequence of points, found 'abc'"),
+        ({"via": [(5, 5, 1)] * 26}, ValueError, r"via: expected at most 25 points, found 26"),
+        ({"movers": 3}, TypeError, r"movers: expected a sequence of MovingSphere and MovingBox, found 3"),
+        ({"movers": "ab"}, ValueError, r"mover 0: expected a MovingSphere or a MovingBox, found 'a'"),
+    ],
+    ids=lambda value: str(value)[:30] if isinstance(value, dict) else "",
+)
+def test_an_argument_that_cannot_be_is_refused_by_its_name_with_what_was_found_and_expected(
+    wrong, kind, message
+) -> None:
+    given = {"world": World(BOUNDS), "start": START, "goal": GOAL, "limits": LIMITS, "radius": RADIUS}
+    with pytest.raises(kind, match=message):
+        plan(**{**given, **wrong})
+
+
+def test_numbers_of_numpy_and_none_for_nothing_are_taken() -> None:
+    plain = plan(World(BOUNDS), START, GOAL, LIMITS, 0.5, 3)
+    other = plan(
+        World(BOUNDS), np.array(START), list(GOAL), LIMITS, np.float32(0.5), np.int64(3), via=None, movers=None
+    )
+    assert other.trajectory == plain.trajectory
+    assert plan(World(BOUNDS), (2, 10, 2), (18, 10, 2), LIMITS, 1).certified

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import BSpline
 
 from benchmarks.bench_replan import fly
-from planner import Cylinder, GoalInCollision, Limits, MovingSphere, Trajectory, World, plan
-from planner.limits import derivative_bounds
+from planner import METHODS, Cylinder, GoalInCollision, Limits, MovingSphere, Trajectory, World, plan
+from planner.movers import UNTIL
 from planner.replan import Decision, Flight, Kind, Replanner, Settings
+from planner.warm import judge
 
 LIMITS, RADIUS = Limits(3.0, 6.0, 60.0), 0.3
 BOUNDS = ((0, 0, 0), (14, 10, 4))
@@ -30,21 +32,37 @@ def joint_gap(before: Flight, after: Flight) -> float:
     return max(float(np.abs(x - y).max()) for x, y in pairs)
 
 
-def check_claims(world: World, decision: Decision, movers: list[MovingSphere], horizon: float) -> None:
-    """What is certified is so: solids and limits all along, movers as far as they are predicted."""
+def wall_gap(world: World, place: np.ndarray) -> float:
+    """Least distance of points (m, 3) to the upright cylinders, which fill the map's height, and to the walls [m]."""
+    low, high = np.array(world.bounds, dtype=float)
+    gaps = [(place - low).min(), (high - place).min()]
+    gaps += [(np.hypot(*(place[:, :2] - c.centre).T) - c.radius).min() for c in world.obstacles]
+    return float(min(gaps))
+
+
+def check_claims(
+    world: World, decision: Decision, movers: list[MovingSphere], horizon: float, since: float | None = None
+) -> None:
+    """What is certified is so from `since` on: solids and limits all along, movers as far as they are predicted.
+
+    By scipy's spline and differences of its samples, not by the planner's own distances and bounds. After its end the
+    vehicle stands there.
+    """
     trajectory, start = decision.flight.trajectory, decision.flight.start_s
-    t = np.linspace(0.0, trajectory.duration, 1501)
-    place = trajectory.position(t)
-    assert min(world.distance(place).min(), world.wall_distance(place).min()) >= RADIUS
-    bounds = derivative_bounds(trajectory.control_points, trajectory.knots)
-    assert bounds.speed <= LIMITS.speed
-    assert bounds.acceleration <= LIMITS.acceleration
-    assert bounds.jerk <= LIMITS.jerk
-    near = t <= horizon
+    since = start if since is None else since
+    spline, end = BSpline(trajectory.knots, trajectory.control_points, 3), float(trajectory.knots[-1])
+    t = np.linspace(0.0, end, 4001)
+    place, step = spline(t), t[1]
+    assert wall_gap(world, spline(np.linspace(min(since - start, end), end, 4001))) >= RADIUS
+    for k, limit in enumerate((LIMITS.speed, LIMITS.acceleration, LIMITS.jerk), 1):
+        mean = np.diff(place, n=k, axis=0) / step**k  # of the derivative, over k steps: never above its maximum
+        noise = 2.0**k * np.abs(place).max() * 4e-16 / step**k
+        assert np.linalg.norm(mean, axis=1).max() <= limit * (1.0 + 1e-9) + noise
+    clock = np.linspace(since, since + horizon, 2001)
+    place = spline(np.clip(clock - start, 0.0, end))
     for m in movers:
-        since = t[near] + start - m.stamp
-        centre = np.array(m.centre) + since[:, None] * np.array(m.velocity)
-        gap = np.linalg.norm(place[near] - centre, axis=1) - m.radius - m.growth * np.abs(since)
+        centre = np.array(m.centre) + (clock - m.stamp)[:, None] * np.array(m.velocity)
+        gap = np.linalg.norm(place - centre, axis=1) - m.radius - m.growth * np.abs(clock - m.stamp)
         assert gap.min() >= RADIUS
 
 
@@ -136,7 +154,7 @@ def test_a_stop_is_kept_ready_and_begins_on_what_is_flown(first):
         assert decision.backup is not None
         assert joint_gap(decision.flight, decision.backup) < 1e-9
         assert np.abs(decision.backup.trajectory.velocity(99.0)).max() < 1e-9
-        assert WORLD.distance(decision.backup.trajectory.position(np.linspace(0, 9, 500))).min() >= RADIUS
+        assert wall_gap(WORLD, decision.backup.trajectory.position(np.linspace(0, 9, 500))) >= RADIUS
 
 
 def test_what_cannot_be_missed_is_never_called_certified(first):
@@ -147,6 +165,82 @@ def test_what_cannot_be_missed_is_never_called_certified(first):
     assert not decision.certified
     assert decision.backup is None
     assert decision.clearance < 0.0
+
+
+@pytest.mark.parametrize("late", [0.3, 0.8, 1.4])
+def test_a_mover_that_comes_to_the_goal_after_the_end_is_seen_as_far_as_it_is_predicted(first, late):
+    now, ahead = first.duration - 0.2, 0.2 + late
+    x, y, z = first.position(99.0)
+    mover = ball(now, (x, y + 1.5 * ahead, z), (0.0, -1.5, 0.0))  # on the goal `late` after the end
+    decision = Replanner(WORLD, LIMITS, RADIUS, first).step(now, [mover])
+    assert decision.clearance < 0.0 or decision.flight.trajectory is not first
+    if decision.certified:
+        check_claims(WORLD, decision, [mover], 2.0, since=now + 0.02)
+    passed = ball(now, (x, y + 1.5 * 4.0, z), (0.0, -1.5, 0.0))  # still 3 m away when the prediction ends
+    assert Replanner(WORLD, LIMITS, RADIUS, first).step(now, [passed]).certified
+
+
+def test_standing_at_the_end_is_judged_for_as_long_as_it_is_asked_for(first):
+    ask = Replanner(WORLD, LIMITS, RADIUS, first)._ask(
+        [MovingSphere((13.0, 5.0 + 1.0 * (first.duration + 1.0), 1.5), (0.0, -1.0, 0.0), 0.2)], 0.0
+    )
+    ask.movers[:, UNTIL] = np.inf  # it is half a metre from the goal half a second after the end
+    points, knots = first.control_points, first.knots
+    assert judge(ask, points, knots, 0.0, 0.0, 0.49)[2]
+    assert not judge(ask, points, knots, 0.0, 0.0, 0.51)[2]
+
+
+@pytest.mark.parametrize("radius", [-1.0, -1e-9, np.nan, np.inf])
+def test_a_radius_that_cannot_be_is_refused(first, radius):
+    with pytest.raises(ValueError, match="radius: expected a finite number of at least 0 m, found"):
+        Replanner(WORLD, LIMITS, radius, first)
+
+
+def test_a_trajectory_that_does_not_end_at_rest_is_refused():
+    moving = plan(WORLD, (1, 5, 1.5), (13, 5, 1.5), LIMITS, RADIUS, goal_velocity=(0.5, 0, 0)).trajectory
+    with pytest.raises(ValueError, match=r"trajectory: expected rest at its end, found 0\.5 m/s and"):
+        Replanner(WORLD, LIMITS, RADIUS, moving)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_methods_trajectory_counts_as_ending_at_rest_far_from_the_origin_too(method):
+    for x, y in ((0.0, 0.0), (5e5, 5e6)):
+        world = World(((x, y, 0), (x + 14, y + 10, 4)), [Cylinder((x + 7.0, y + 4.9), 0.5, (0, 4))])
+        made = plan(world, (x + 1, y + 5, 1.5), (x + 13, y + 5, 1.5), LIMITS, RADIUS, method=method)
+        assert Replanner(world, LIMITS, RADIUS, made.trajectory).step(0.5).certified
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"world": "maze"}, "world: expected a World, found 'maze'"),
+        ({"limits": (3, 6, 60)}, r"limits: expected a Limits, found \(3, 6, 60\)"),
+        ({"radius": "0.3"}, "radius: expected a finite number of at least 0 m, found '0.3'"),
+        ({"trajectory": None}, "trajectory: expected a Trajectory, found None"),
+    ],
+)
+def test_an_argument_of_another_type_is_refused_by_its_name(first, change, message):
+    given = {"world": WORLD, "limits": LIMITS, "radius": RADIUS, "trajectory": first}
+    with pytest.raises(TypeError, match=message):
+        Replanner(**{**given, **change})
+
+
+def test_a_new_world_that_covers_the_goal_is_told_in_every_decision_until_there_is_another_goal(first):
+    replanner = Replanner(WORLD, LIMITS, RADIUS, first)
+    covered = World(BOUNDS, [*WORLD.obstacles, Cylinder((13.0, 5.2), 0.6, (0, 4))])
+    replanner.remap(covered)
+    for tick in range(60):
+        decision = replanner.step(1.0 + 0.02 * tick)
+        assert "goal (13.00, 5.00, 1.50) is 0.400 m inside obstacle 1 (cylinder)" in decision.reason
+        assert "0.700 m more" in decision.reason
+        if decision.certified:
+            check_claims(covered, decision, [], 0.0, since=1.02 + 0.02 * tick)
+    assert np.abs(decision.flight.trajectory.velocity(99.0)).max() < 1e-9
+    replanner.retarget((12.0, 4.0, 1.5))
+    decision = replanner.step(2.2)
+    assert "goal" not in decision.reason
+    replanner.remap(WORLD)
+    assert "goal" not in replanner.step(2.22).reason
 
 
 def test_the_same_inputs_bring_the_same_decisions(first):
