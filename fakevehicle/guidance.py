@@ -117,7 +117,12 @@ def yaw_of(q_nb: FloatArray) -> float:
 
 
 def completed(asked: Setpoint) -> Setpoint:
-    """The setpoint with something to follow on every axis: an axis nobody asked for stands still (velocity zero)."""
+    """The setpoint with something to follow on every axis: an axis nobody asked for stands still (velocity zero).
+
+    One of attitude and thrust is complete as it is.
+    """
+    if not math.isnan(asked.thrust):
+        return asked
     nothing = np.isnan(asked.position_n) & np.isnan(asked.velocity_n) & np.isnan(asked.acceleration_n)
     if not nothing.any():
         return asked
@@ -127,6 +132,8 @@ def completed(asked: Setpoint) -> Setpoint:
 
 def asks_to_climb(asked: Setpoint, height_n: float) -> bool:
     """Whether a setpoint wants a vehicle that stands at down coordinate `height_n` [m] to leave the ground."""
+    if not math.isnan(asked.thrust):
+        return asked.thrust > 0.0
     z, vz, az = float(asked.position_n[2]), float(asked.velocity_n[2]), float(asked.acceleration_n[2])
     if not math.isnan(z):
         return z < height_n - LIFT_OFF_MARGIN

@@ -12,7 +12,7 @@ end it, which idling motors give within a few hundredths of a second.
 import math
 from dataclasses import dataclass
 
-from fakevehicle.vocabulary import Estimate
+from fakevehicle.vocabulary import Glance
 
 LIFT_THRUST = 0.35  # of the maximum; a hovering X500 needs 0.59
 LIFT_HEIGHT = 0.2  # [m] above where it stood
@@ -37,20 +37,18 @@ class LandDetector:
     _since_us: int | None = None
     _standing_z: float = math.nan  # [m] down coordinate where it last stood
 
-    def step(self, now_us: int, estimate: Estimate, thrust: float, armed: bool, sinking: bool) -> None:
+    def step(self, now_us: int, glance: Glance, armed: bool, sinking: bool) -> None:
         """Look at one tick.
 
         Parameters
         ----------
         now_us : [us].
-        estimate : the estimator's newest.
-        thrust : collective the loops command, 0..1 of the maximum.
+        glance : the estimate's newest, and the collective that the loops command.
         armed : disarmed motors give no thrust, whatever is commanded.
         sinking : whether the loops are asked to sink.
         """
-        _, _, z = estimate.position_n.tolist()
-        vn, ve, vd = estimate.velocity_n.tolist()
-        thrust = thrust if armed else 0.0
+        z, vn, ve, vd = glance.z, glance.vx, glance.vy, glance.vz
+        thrust = glance.thrust if armed else 0.0
         slow = LAND_SINK if self.touching else TOUCH_SINK  # letting go shakes the feet a little
         resting = thrust < TOUCH_THRUST and abs(vd) < slow and math.hypot(vn, ve) < LAND_DRIFT
         if not (self.airborne and sinking and resting):

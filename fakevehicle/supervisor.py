@@ -2,7 +2,8 @@
 
 `Supervisor.ask` is how peers' wishes come in; `Supervisor.look` notices at 50 Hz what happened; `Supervisor.setpoint`
 turns the mode into one setpoint a tick. Everything is judged on the estimate. What people should know comes out in
-`notes`, as (MAV_SEVERITY, text).
+`notes`, as (MAV_SEVERITY, text). Where the automatic modes fly is the navigator's business, what a failsafe does the
+failsafe table's, and what either means for the mode the modes' table's.
 """
 
 import math
@@ -10,50 +11,37 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fakevehicle.guidance import (
-    Leg,
-    asks_to_climb,
-    asks_to_sink,
-    completed,
-    descent,
-    landing_speed,
-    return_height,
-    still,
-    stopping_point,
-    yaw_of,
-)
+from fakevehicle import course, failsafes, fence, mission_runner, navigator
+from fakevehicle.failsafes import EVENTS, Action, Failsafes, Trigger, Tripped, battery_triggers
+from fakevehicle.fence import FenceMonitor
+from fakevehicle.guidance import asks_to_climb, asks_to_sink, completed
 from fakevehicle.landing import LandDetector
+from fakevehicle.mission_runner import MissionRunner
 from fakevehicle.modes import TRANSITIONS, Conditions, Event, Mode, Refusal, Special, refusal
+from fakevehicle.navigator import ARRIVED, Navigator
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
-from fakevehicle.vocabulary import Estimate, FloatArray, Setpoint
+from fakevehicle.places import Places
+from fakevehicle.plans import PlanStore
+from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
 
 CRITICAL, WARNING, INFO = 2, 4, 6
 LIFT_PATIENCE_US = 2_000_000
 """A standing vehicle in OFFBOARD keeps its motors flying this long after the last setpoint that asked to climb."""
-ARRIVED = 0.3
-"""Height error [m] within which a takeoff is done."""
-RETURN_ARRIVED = 2.0
-"""Distance [m] from the end of a return's leg at which the next one begins."""
-TAKEOFF_PATIENCE_S = 3.0
-"""A takeoff that ends this long after its leg, wherever it got to [s]."""
 
 _I = ParameterType.INT32
 PARAMETERS: tuple[Parameter, ...] = (
-    Parameter("MIS_TAKEOFF_ALT", 2.5, 0.5, 100.0, "m", "Height of a takeoff for which no altitude is given"),
-    Parameter("MPC_TKO_SPEED", 1.5, 0.3, 5.0, "m/s", "Climb rate of a takeoff"),
-    Parameter("MPC_LAND_SPEED", 0.7, 0.3, 3.0, "m/s", "Sink rate of a landing below 5 m"),
-    Parameter("MPC_Z_V_AUTO_DN", 1.5, 0.5, 4.0, "m/s", "Sink rate of automatic modes"),
-    Parameter("MPC_Z_V_AUTO_UP", 3.0, 0.5, 8.0, "m/s", "Climb rate of automatic modes"),
-    Parameter("MPC_XY_CRUISE", 5.0, 1.0, 15.0, "m/s", "Speed of automatic modes over ground"),
-    Parameter("MPC_ACC_HOR", 3.0, 1.0, 8.0, "m/s^2", "Acceleration of automatic modes"),
-    Parameter("RTL_RETURN_ALT", 30.0, 0.0, 150.0, "m", "Highest height above home of a return"),
-    Parameter("COM_OF_LOSS_T", 1.0, 0.1, 60.0, "s", "Setpoints missing for this long end OFFBOARD"),
-    Parameter("COM_OBL_RC_ACT", 5, 3, 5, "", "What follows then: 3 return, 4 land, 5 hold", _I),
+    *course.PARAMETERS,
+    *navigator.PARAMETERS,
+    *mission_runner.PARAMETERS,
+    *fence.PARAMETERS,
+    *failsafes.PARAMETERS,
     Parameter("COM_DISARM_LAND", 2.0, -1.0, 20.0, "s", "Disarm this long after a landing; not above 0: never"),
     Parameter("COM_DISARM_PRFLT", 10.0, -1.0, 60.0, "s", "Disarm when nobody takes off; not above 0: never"),
+    Parameter("GUID_TIMEOUT", 3.0, 0.1, 10.0, "s", "Guided mode: setpoints without a position are flown this long"),
 )
 
-_STREAM_LOST = {3: Event.FAIL_RTL, 4: Event.FAIL_LAND, 5: Event.FAIL_HOLD}
+_FLY_BLIND = (Mode.LAND, Mode.STABILIZED, Mode.ALTITUDE)
+"""Modes that a lost position does not end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,32 +60,38 @@ class Supervisor:
     mode : what is flown.
     intended : what was asked for; differs from `mode` only in a failsafe.
     armed, failsafe : as they sound.
-    home : None until the estimate is good; taken again at every arming, as PX4 does.
+    home : None until the estimate is good; taken again at every arming, as PX4 does, unless somebody has set it.
     notes : texts for people since somebody last emptied the list.
     entered : counts mode changes and armings, so that the loops can be told to begin anew.
+    remaining : charge of the battery, 0..1; told by the vehicle.
+    navigator, fence : where automatic modes fly, and where nobody may.
     """
 
-    def __init__(self, parameters: ParameterSet) -> None:
+    def __init__(self, parameters: ParameterSet, store: PlanStore, places: Places) -> None:
         self._parameters = parameters
+        self._store = store
+        self.navigator = Navigator(store, parameters, places)
+        self.fence = FenceMonitor(store, parameters, places)
+        self._failsafes = Failsafes(parameters)
         self.mode = Mode.HOLD
         self.intended = Mode.HOLD
         self.armed = False
         self.failsafe = False
         self.home: Home | None = None
+        self._home_set = False  # by somebody
         self.notes: list[tuple[int, str]] = []
         self.entered = 0
-        self._estimate: Estimate | None = None
+        self.remaining = 1.0
+        self._glance: Glance | None = None
         self._ground = LandDetector()
         self._flown = False  # since it was armed
         self._changed_us = 0  # when it was armed or last stood down
         self._asked: Setpoint | None = None  # newest OFFBOARD setpoint
         self._asked_us = 0
+        self._stream_lost = False  # a lost stream has led to this mode
         self._climb_us: int | None = None  # newest OFFBOARD setpoint that asked a standing vehicle to climb
-        self._anchor_n: FloatArray = np.zeros(3)
-        self._yaw = 0.0
-        self._leg: Leg | None = None
-        self._takeoff_z: float | None = None
-        self._descending = False  # RTL has arrived over home
+        self._station_us: int | None = None  # newest heartbeat of a ground station
+        self._position_held = False  # position has been good since it was armed
 
     @property
     def airborne(self) -> bool:
@@ -107,31 +101,45 @@ class Supervisor:
     @property
     def landing(self) -> bool:
         """Whether it is on its way to the ground by itself."""
-        return self.airborne and (self.mode is Mode.LAND or (self.mode is Mode.RTL and self._descending))
+        return self.airborne and (self.mode is Mode.LAND or self.navigator.descending)
+
+    @property
+    def taking_off(self) -> bool:
+        """Whether it climbs to the height of a takeoff."""
+        return self.mode is Mode.TAKEOFF or self.navigator.climbing
+
+    @property
+    def runner(self) -> MissionRunner:
+        """The mission's progress."""
+        return self.navigator.runner
 
     @property
     def position_n(self) -> FloatArray | None:
         """Where it believes to be, (3,) local NED [m]; None while it does not know."""
-        return self._estimate.position_n if self._estimate is not None and self._estimate.position_valid else None
+        g = self._glance
+        return np.array([g.x, g.y, g.z]) if g is not None and g.position_valid else None
 
     @property
-    def attitude_q_nb(self) -> FloatArray | None:
-        """(4,) wxyz; None while it does not know."""
-        return self._estimate.q_nb if self._estimate is not None and self._estimate.attitude_valid else None
+    def yaw(self) -> float | None:
+        """Heading [rad]; None while it does not know."""
+        return self._glance.yaw if self._glance is not None and self._glance.attitude_valid else None
 
     def conditions(self, now_us: int) -> Conditions:
         """What the guards look at, now."""
-        e = self._estimate
+        g = self._glance
         return Conditions(
             armed=self.armed,
             airborne=self.airborne,
-            attitude_valid=e is not None and e.attitude_valid,
-            velocity_valid=e is not None and e.velocity_valid,
-            position_valid=e is not None and e.position_valid,
-            altitude_valid=e is not None and e.altitude_valid,
+            attitude_valid=g is not None and g.attitude_valid,
+            velocity_valid=g is not None and g.velocity_valid,
+            position_valid=g is not None and g.position_valid,
+            altitude_valid=g is not None and g.altitude_valid,
             home_known=self.home is not None,
             setpoints_fresh=self.setpoints_fresh(now_us),
             mode=self.mode,
+            mission_loaded=bool(self._store.mission),
+            battery_good=self.remaining >= self._parameters["BAT_CRIT_THR"],
+            fence_kept=self.fence.breach is None,
         )
 
     def setpoints_fresh(self, now_us: int) -> bool:
@@ -161,78 +169,152 @@ class Supervisor:
             case _:
                 outcome = TRANSITIONS[event][self.mode]
                 if isinstance(outcome, Mode):
-                    self.failsafe = False
+                    self.failsafe = self._stream_lost = False
                     self.intended = outcome
-                    self._enter(outcome, now_us)
+                    self._enter(outcome)
         return None
 
     def ask_takeoff(self, now_us: int, z: float | None) -> Refusal | None:
         """Take off to a down coordinate [m], or to MIS_TAKEOFF_ALT above the ground when it is None."""
-        estimate = self._estimate
-        if z is not None and estimate is not None and z > float(estimate.position_n[2]) - ARRIVED:
+        if z is not None and self._glance is not None and z > self._glance.z - ARRIVED:
             return Refusal.BELOW
+        if self.mode is Mode.GUIDED and (not self.armed or self.airborne):
+            return Refusal.NOT_LANDED if self.armed else Refusal.NOT_ARMED
         reason = self.ask(Event.ASK_TAKEOFF, now_us)
         if reason is None:
-            self._takeoff_z = z
+            self.navigator.takeoff_z = z
+            if self.mode is Mode.GUIDED:
+                self._asked = None
+                self.navigator.take_off(now_us, z, None if self.home is None else self.home.position_n)
         return reason
 
-    def ask_goto(self, now_us: int, position_n: FloatArray, yaw: float) -> Refusal | None:
-        """Fly to a point and hold there; (3,) [m], yaw [rad] or NaN for the present one."""
+    def ask_goto(self, now_us: int, position_n: FloatArray, yaw: float, speed: float | None = None) -> Refusal | None:
+        """Fly to a point and hold there; (3,) [m], yaw [rad] or NaN for the present one, speed [m/s] or None."""
+        if self.home is not None and self.fence.breach_at(position_n, self.home.position_n) is not None:
+            return Refusal.OUTSIDE_FENCE
         reason = self.ask(Event.ASK_GOTO, now_us)
         if reason is None:
-            self._leg = self._leg_to(now_us, position_n)
-            self._yaw = self._yaw if math.isnan(yaw) else yaw
+            self._asked = None if self.mode is Mode.GUIDED else self._asked
+            self.navigator.go_to(now_us, position_n, yaw, speed)
         return reason
 
+    def ask_speed(self, speed: float | None) -> None:
+        """Fly automatic modes at another speed over ground [m/s] until the mode changes; None: MPC_XY_CRUISE again."""
+        self.navigator.course.cruise = speed
+
+    def ask_home(self, position_n: FloatArray | None, yaw: float) -> Refusal | None:
+        """Put home to a point (3,) [m], or to where the vehicle is; yaw [rad], NaN: the vehicle's."""
+        here_n = self.position_n
+        if here_n is None or self._glance is None:
+            return Refusal.NO_POSITION
+        yaw = self._glance.yaw if math.isnan(yaw) else yaw
+        self.home = Home(here_n if position_n is None else position_n, yaw)
+        self._home_set = position_n is not None
+        return None
+
     def offboard(self, now_us: int, setpoint: Setpoint) -> None:
-        """A setpoint from a peer. It is flown in OFFBOARD only, but keeps the stream fresh in any mode."""
+        """A setpoint from a peer. It is flown in OFFBOARD and GUIDED only, but keeps the stream fresh in any mode."""
         self._asked = completed(setpoint)
         self._asked_us = now_us
 
+    def ground_station(self, now_us: int) -> None:
+        """A heartbeat of a ground station: the data link stands."""
+        self._station_us = now_us
+
     # What happens by itself
 
-    def look(self, now_us: int, estimate: Estimate, thrust: float) -> None:
+    def look(self, now_us: int, glance: Glance) -> None:
         """Notice what happened since the last look; to be called at 50 Hz.
 
         Parameters
         ----------
         now_us : [us].
-        estimate : the estimator's newest.
-        thrust : collective the loops command now, 0..1.
+        glance : the estimate's newest.
         """
-        self._estimate = estimate
-        if self.home is None and estimate.position_valid and estimate.altitude_valid:
-            self.home = Home(estimate.position_n.copy(), yaw_of(estimate.q_nb))
+        self._glance = glance
+        if self.home is None and glance.position_valid and glance.altitude_valid:
+            self._take_home(glance)
         was_airborne = self.airborne
-        self._ground.step(now_us, estimate, thrust, self.armed, self._sinking(estimate))
+        self._ground.step(now_us, glance, self.armed, self._sinking(glance))
         if self.airborne is not was_airborne:
             self._changed_us = now_us
             self._flown = self._flown or self.airborne
             self._climb_us = None
             self.notes.append((INFO, "Takeoff detected" if self.airborne else "Landing detected"))
+        if self.home is not None and glance.position_valid:
+            self.fence.step(now_us, np.array([glance.x, glance.y, glance.z]), self.home.position_n)
+        self._position_held = self.armed and (self._position_held or glance.position_valid)
+        for tripped in self._failsafes.step(self._triggers(now_us, glance)):
+            self._trip(tripped, now_us)
         if self.armed:
-            self._watch_stream(now_us)
+            back = self.setpoints_fresh(now_us) and (self.airborne or not self._flown)
+            if self._stream_lost and back:
+                self._notice(Event.STREAM_BACK)
             self._watch_ground(now_us)
 
     def setpoint(self, now_us: int) -> Setpoint | None:
         """Where to fly in this tick. None: motors at rest, or idling when armed, as when it touches the ground."""
-        if not self.armed or self._estimate is None or self._ground.touching:
+        if not self.armed or self._glance is None or self._ground.touching:
             return None
-        return self._setpoint(now_us, self._estimate)
+        if self.mode is Mode.OFFBOARD:
+            return self._offboard_setpoint(now_us, self._glance)
+        if self.mode is Mode.GUIDED and self.airborne and not self.navigator.climbing:
+            asked = self._guided_setpoint(now_us)
+            if asked is not None:
+                return asked
+        home_n = self.navigator.course.anchor_n if self.home is None else self.home.position_n
+        flown = self.navigator.setpoint(self.mode, now_us, self._glance, self.airborne, self._flown, home_n)
+        if isinstance(flown, Event):
+            self._notice(flown)
+            return self.navigator.course.setpoint(now_us) if self.airborne else None
+        return flown
 
-    def _sinking(self, estimate: Estimate) -> bool:
+    def _sinking(self, glance: Glance) -> bool:
         """Whether what is flown now leads downwards."""
         if self.mode is Mode.OFFBOARD:
-            return self._asked is not None and asks_to_sink(self._asked, float(estimate.position_n[2]))
+            return self._asked is not None and asks_to_sink(self._asked, glance.z)
         return self.landing
 
-    def _watch_stream(self, now_us: int) -> None:
-        """Lose OFFBOARD when the setpoints stop, and regain it when they return."""
-        if self.mode is Mode.OFFBOARD:
-            if not self.setpoints_fresh(now_us):
-                self._fail(_STREAM_LOST[int(self._parameters["COM_OBL_RC_ACT"])], "setpoints stopped", now_us)
-        elif self.failsafe and self.setpoints_fresh(now_us) and (self.airborne or not self._flown):
-            self._notice(Event.STREAM_BACK, now_us)
+    def _triggers(self, now_us: int, glance: Glance) -> list[Trigger]:
+        """What is wrong now; nothing is while it is disarmed, but a battery."""
+        triggers = list(battery_triggers(self.remaining, self._parameters))
+        if not self.armed:
+            return triggers
+        offboard = self.mode is Mode.OFFBOARD or self._stream_lost
+        if offboard and not self.setpoints_fresh(now_us):
+            triggers.append(Trigger.STREAM_LOST)
+        if not self.airborne:
+            return triggers
+        silent_s = 0.0 if self._station_us is None else (now_us - self._station_us) * 1e-6
+        if silent_s > self._parameters["COM_DL_LOSS_T"]:
+            triggers.append(Trigger.LINK_LOST)
+        blind = self.mode in _FLY_BLIND or (
+            self.mode is Mode.OFFBOARD and self._asked is not None and not math.isnan(self._asked.thrust)
+        )
+        if self._position_held and not glance.position_valid and not blind:
+            triggers.append(Trigger.POSITION_LOST)
+        if self.fence.breach is not None:
+            triggers.append(Trigger.FENCE_BREACHED)
+        return triggers
+
+    def _trip(self, tripped: Tripped, now_us: int) -> None:
+        """Do what a failsafe wants: what was asked for stays what is intended."""
+        why, action = tripped.trigger.value, tripped.action
+        if action is Action.WARN or not self.armed:
+            self.notes.append((WARNING, f"{why[0].upper()}{why[1:]}"))
+            return
+        if action is Action.MOTORS_OFF:
+            self.notes.append((CRITICAL, f"Failsafe activated: {why}, motors off"))
+            self._disarm(now_us, "failsafe")
+            return
+        if self._glance is not None and not self._glance.position_valid:
+            action = Action.LAND
+        outcome = TRANSITIONS[EVENTS[action]][self.mode]
+        if isinstance(outcome, Mode):
+            self.failsafe = True
+            self._stream_lost = tripped.trigger is Trigger.STREAM_LOST
+            self.notes.append((CRITICAL, f"Failsafe activated: {why}, {outcome.title}"))
+            self._enter(outcome)
 
     def _watch_ground(self, now_us: int) -> None:
         """Stop the motors of a vehicle that stands for long enough."""
@@ -244,141 +326,67 @@ class Supervisor:
         if 0 < patience_s <= stood_s:
             self._disarm(now_us, text)
 
-    def _notice(self, event: Event, now_us: int) -> None:
+    def _notice(self, event: Event) -> None:
         """An event of the vehicle's own; the table says what follows."""
         outcome = TRANSITIONS[event][self.mode]
         if outcome is Special.RESUME:
-            self.failsafe = False
+            self.failsafe = self._stream_lost = False
             self.notes.append((INFO, "Setpoints are back: Offboard"))
-            self._enter(self.intended, now_us)
+            self._enter(self.intended)
         elif isinstance(outcome, Mode):
+            arrived_n = self.navigator.course.anchor_n
             self.intended = outcome
-            self.failsafe = False
-            self._enter(outcome, now_us)
+            self.failsafe = self._stream_lost = False
+            self._enter(outcome)
+            if self.airborne and outcome is Mode.HOLD:
+                self.navigator.course.anchor_n = arrived_n  # where the way ended, not where noise has it
 
-    def _fail(self, event: Event, why: str, now_us: int) -> None:
-        """A failsafe's wish: what was asked for stays what is intended."""
-        outcome = TRANSITIONS[event][self.mode]
-        if isinstance(outcome, Mode):
-            self.failsafe = True
-            self.notes.append((CRITICAL, f"Failsafe activated: {why}, {outcome.title}"))
-            self._enter(outcome, now_us)
+    def _take_home(self, glance: Glance) -> None:
+        self.home = Home(np.array([glance.x, glance.y, glance.z]), glance.yaw)
 
     def _arm(self, now_us: int) -> None:
         self.armed = True
         self._flown = False
+        self._position_held = False
         self._changed_us = now_us
-        self._climb_us = None
         self.notes.append((INFO, "Armed by external command"))
-        if self._estimate is not None:
-            self.home = Home(self._estimate.position_n.copy(), yaw_of(self._estimate.q_nb))
-        self._enter(self.mode, now_us)
+        if self._glance is not None and not self._home_set:
+            self._take_home(self._glance)
+        self._enter(self.mode)
 
     def _disarm(self, now_us: int, why: str) -> None:
         self.armed = False
         self.notes.append((INFO, f"Disarmed by {why}"))
-        self._notice(Event.DISARMED, now_us)
+        self._notice(Event.DISARMED)
 
-    # Where each mode flies
+    # What is flown
 
-    def _enter(self, mode: Mode, now_us: int) -> None:
-        """Begin a mode: brake to a stop from here, unless the mode says otherwise."""
-        if mode is not self.mode:
-            self._takeoff_z = None
+    def _enter(self, mode: Mode) -> None:
+        """Begin a mode."""
         self.mode = mode
         self.entered += 1
-        self._leg = None
-        self._descending = False
         self._climb_us = None
-        if self._estimate is not None:
-            e = self._estimate
-            self._anchor_n = (
-                stopping_point(e.position_n, e.velocity_n, self._parameters["MPC_ACC_HOR"])
-                if self.airborne
-                else e.position_n.copy()
-            )
-            self._yaw = yaw_of(e.q_nb)
+        self.navigator.begin(mode, self._glance, self.airborne)
 
-    def _leg_to(self, now_us: int, end_n: FloatArray) -> Leg:
-        """A straight leg from the anchor, within the cruise speed and the climb and sink rates."""
-        p = self._parameters
-        length = math.dist(self._anchor_n, end_n)
-        rise = float(self._anchor_n[2] - end_n[2])
-        vertical = p["MPC_Z_V_AUTO_UP"] if rise > 0.0 else p["MPC_Z_V_AUTO_DN"]
-        speed = min(p["MPC_XY_CRUISE"], vertical * length / abs(rise)) if rise else p["MPC_XY_CRUISE"]
-        return Leg(now_us, self._anchor_n, end_n, speed, p["MPC_ACC_HOR"])
-
-    def _setpoint(self, now_us: int, estimate: Estimate) -> Setpoint | None:
-        match self.mode:
-            case Mode.OFFBOARD:
-                return self._offboard_setpoint(now_us, estimate)
-            case Mode.TAKEOFF:
-                return self._takeoff_setpoint(now_us, estimate)
-            case _ if not self.airborne:
-                return None
-            case Mode.LAND:
-                return self._landing_setpoint(estimate)
-            case Mode.RTL:
-                return self._return_setpoint(now_us, estimate)
-            case _:
-                return self._leg.setpoint(now_us, self._yaw) if self._leg else still(self._anchor_n, self._yaw)
-
-    def _offboard_setpoint(self, now_us: int, estimate: Estimate) -> Setpoint | None:
+    def _offboard_setpoint(self, now_us: int, glance: Glance) -> Setpoint | None:
         """The peer's setpoint; a standing vehicle idles until one asks to climb."""
         asked = self._asked
         if asked is None or self.airborne:
             return asked
-        if asks_to_climb(asked, float(estimate.position_n[2])):
+        if asks_to_climb(asked, glance.z):
             self._climb_us = now_us
         lifting = self._climb_us is not None and now_us - self._climb_us < LIFT_PATIENCE_US
         return asked if lifting else None
 
-    def _takeoff_setpoint(self, now_us: int, estimate: Estimate) -> Setpoint | None:
-        leg = self._leg
-        if leg is None:
-            if self._flown and not self.airborne:
-                return None  # it came down again: wait to be disarmed
-            z = self._takeoff_z
-            if z is None:
-                ground = float(self.home.position_n[2]) if self.home is not None else float(self._anchor_n[2])
-                z = ground - self._parameters["MIS_TAKEOFF_ALT"]
-            top = self._anchor_n.copy()
-            top[2] = min(z, float(top[2]))
-            leg = Leg(now_us, self._anchor_n, top, self._parameters["MPC_TKO_SPEED"], self._parameters["MPC_ACC_HOR"])
-            self._leg = leg
-        late_s = (now_us - leg.start_us) * 1e-6 - leg.duration_s
-        if late_s >= 0.0 and self.airborne:
-            arrived = abs(float(estimate.position_n[2] - leg.end_n[2])) < ARRIVED
-            if arrived or late_s > TAKEOFF_PATIENCE_S:
-                self._notice(Event.TAKEOFF_DONE, now_us)
-                self._anchor_n = leg.end_n if arrived else self._anchor_n
-                return still(self._anchor_n, self._yaw)
-        return leg.setpoint(now_us, self._yaw)
-
-    def _landing_setpoint(self, estimate: Estimate) -> Setpoint:
-        ground = float(self.home.position_n[2]) if self.home is not None else 0.0
-        height = ground - float(estimate.position_n[2])
-        p = self._parameters
-        return descent(self._anchor_n, landing_speed(height, p["MPC_LAND_SPEED"], p["MPC_Z_V_AUTO_DN"]), self._yaw)
-
-    def _return_setpoint(self, now_us: int, estimate: Estimate) -> Setpoint:
-        """Climb, fly home, sink: each leg from the end of the one before."""
-        if self.home is None:  # the guards keep this away
-            return self._landing_setpoint(estimate)
-        if self._descending:
-            return self._landing_setpoint(estimate)
-        home_n = self.home.position_n
-        leg = self._leg
-        if leg is None:
-            distance = math.dist(home_n[:2], self._anchor_n[:2])
-            height = return_height(float(home_n[2] - self._anchor_n[2]), distance, self._parameters["RTL_RETURN_ALT"])
-            leg = self._leg = self._leg_to(now_us, np.array([*self._anchor_n[:2], home_n[2] - height]))
-        flown = now_us - leg.start_us >= leg.duration_s * 1e6
-        if flown and math.dist(estimate.position_n, leg.end_n) < RETURN_ARRIVED:
-            over_home = np.array([home_n[0], home_n[1], leg.end_n[2]])
-            self._anchor_n = leg.end_n
-            if math.dist(over_home, leg.end_n) < 1e-6:
-                self._descending = True
-                return self._landing_setpoint(estimate)
-            leg = self._leg = self._leg_to(now_us, over_home)
-        return leg.setpoint(now_us, self._yaw)
+    def _guided_setpoint(self, now_us: int) -> Setpoint | None:
+        """The peer's setpoint as long as it holds: for ever with a position, else for GUID_TIMEOUT; then a stop."""
+        asked = self._asked
+        if asked is None:
+            return None
+        old_s = (now_us - self._asked_us) * 1e-6
+        if not math.isnan(float(asked.position_n[0])) or old_s < self._parameters["GUID_TIMEOUT"]:
+            return asked
+        self._asked = None
+        if self._glance is not None:
+            self.navigator.course.stop(self._glance, moving=True)
+        return None

@@ -28,11 +28,14 @@ from fakevehicle.param_pack import PATH as PARAM_FILE
 from fakevehicle.param_pack import pack
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.places import Places
-from fakevehicle.services.absent import NoMissions, NoShell
+from fakevehicle.plans import PlanStore
+from fakevehicle.services.absent import NoShell
 from fakevehicle.services.commands import Commands
 from fakevehicle.services.ftp import Ftp
 from fakevehicle.services.logs import Logs
 from fakevehicle.services.metadata import Metadata
+from fakevehicle.services.missions import Missions
+from fakevehicle.services.navigation import Navigation
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
 from fakevehicle.services.service import Service, merged
@@ -127,8 +130,9 @@ class Vehicle:
             gusts=config.gusts,
             world=config.world,
         )
-        self._supervisor = Supervisor(self.parameters)
         self._places = Places(self._origin, config.home)
+        store = PlanStore()
+        self._supervisor = Supervisor(self.parameters, store, self._places)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
         self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
         self._streams = Streams(self._outbox, config.links, flavour.rates)
@@ -137,13 +141,22 @@ class Vehicle:
         recordings = MemoryFiles() if files is None else files
         metadata = Metadata(self.parameters, READ_ONLY, self._now)
         tree = Tree({PARAM_FILE: lambda query: pack(self.parameters, query), **metadata.files}, {"log": recordings})
+        missions = Missions(store, self._supervisor, self._places, self._outbox, self._warn_rarely)
         self._services: tuple[Service, ...] = (
             self._telemetry,
             self._commands,
             self._setpoints,
             Parameters(self.parameters, self._outbox, READ_ONLY, self._warn),
             Timing(self._outbox),
-            NoMissions(self._outbox, self._warn_rarely),
+            missions,
+            Navigation(
+                self._supervisor,
+                missions,
+                self._outbox,
+                self._places,
+                self._stack.inject,
+                self._telemetry.home_position,
+            ),
             NoShell(self._outbox, self._warn_rarely),
             metadata,
             Ftp(tree, self._outbox, self._warn_rarely),
@@ -237,7 +250,8 @@ class Vehicle:
         stack.tick(now_us, setpoint, supervisor.armed)
         looking = now_us % LOOK_US == 0
         if looking:
-            supervisor.look(now_us, stack.estimate, stack.control.thrust)
+            supervisor.remaining = stack.battery.remaining
+            supervisor.look(now_us, stack.glance)
             self._flavour.look(now_us)
         if looking or inputs:
             self._tell_changes()

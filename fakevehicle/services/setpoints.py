@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from fakevehicle.codec import Message
-from fakevehicle.guidance import yaw_of
 from fakevehicle.places import Places
 from fakevehicle.services.commands import RADIANS_PER_E7
 from fakevehicle.services.outbox import Sender
@@ -54,11 +53,11 @@ class Setpoints(Service):
         if m.coordinate_frame == mavlink.MAV_FRAME_LOCAL_NED:
             turn = 0.0
         elif m.coordinate_frame == mavlink.MAV_FRAME_BODY_NED:
-            q_nb = self._supervisor.attitude_q_nb
-            if q_nb is None:
+            heading = self._supervisor.yaw
+            if heading is None:
                 self._refuse("attitude not known yet", now_us)
                 return
-            turn = yaw_of(q_nb)
+            turn = heading
             position_n[:] = math.nan
         else:
             self._refuse("frame must be LOCAL_NED (1) or BODY_NED (8)", now_us)

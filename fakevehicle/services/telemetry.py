@@ -16,7 +16,6 @@ from fakevehicle.battery import Battery
 from fakevehicle.codec import Message
 from fakevehicle.config import VehicleConfig
 from fakevehicle.flight import FlightStack
-from fakevehicle.modes import Mode
 from fakevehicle.places import Places
 from fakevehicle.services.service import Builder, Service
 from fakevehicle.supervisor import Supervisor
@@ -106,7 +105,7 @@ class Telemetry(Service):
             landed = mavlink.MAV_LANDED_STATE_ON_GROUND
         elif s.landing:
             landed = mavlink.MAV_LANDED_STATE_LANDING
-        elif s.mode is Mode.TAKEOFF:
+        elif s.taking_off:
             landed = mavlink.MAV_LANDED_STATE_TAKEOFF
         else:
             landed = mavlink.MAV_LANDED_STATE_IN_AIR

@@ -7,7 +7,7 @@ import pytest
 
 from fakevehicle.guidance import asks_to_sink
 from fakevehicle.landing import LandDetector
-from fakevehicle.vocabulary import Estimate, Setpoint
+from fakevehicle.vocabulary import Glance, Setpoint
 
 LOOK_US = 20_000
 
@@ -24,29 +24,12 @@ class Tale:
         touched = False
         for _ in range(round(seconds * 1e6 / LOOK_US)):
             self.now_us += LOOK_US
-            self.detector.step(self.now_us, self.estimate(sink, drift), thrust, True, sinking)
+            self.detector.step(self.now_us, self.glance(sink, drift, thrust), True, sinking)
             touched = touched or self.detector.touching
         return touched
 
-    def estimate(self, sink: float, drift: float) -> Estimate:
-        zero = np.zeros(3)
-        return Estimate(
-            now_us=self.now_us,
-            position_n=np.array([0.0, 0.0, -5.0]),
-            velocity_n=np.array([drift, 0.0, sink]),
-            acceleration_n=zero,
-            q_nb=np.array([1.0, 0.0, 0.0, 0.0]),
-            omega_b=zero,
-            gyro_bias=zero,
-            accel_bias=zero,
-            covariance=np.eye(15),
-            test_ratio={},
-            attitude_valid=True,
-            velocity_valid=True,
-            position_valid=True,
-            altitude_valid=True,
-            origin=None,
-        )
+    def glance(self, sink: float, drift: float, thrust: float) -> Glance:
+        return Glance(self.now_us, 0.0, 0.0, -5.0, drift, 0.0, sink, 0.0, thrust, True, True, True, True, 0)
 
 
 @pytest.mark.parametrize(

@@ -591,35 +591,21 @@ def test_a_refused_parameter_says_why(pilot: Pilot, request_: Any, error: int, w
 # Services it does not have
 
 
-def test_missions_are_empty_and_uploads_are_refused(pilot: Pilot) -> None:
-    for kind in (0, 1, 2):
-        pilot.send(m.MAVLink_mission_request_list_message(1, 1, kind))
-        pilot.tick()
-        assert (pilot.last("MISSION_COUNT").count, pilot.last("MISSION_COUNT").mission_type) == (0, kind)
-    pilot.send(m.MAVLink_mission_count_message(1, 1, 5, 0))
-    pilot.tick()
-    assert pilot.last("MISSION_ACK").type == m.MAV_MISSION_UNSUPPORTED
-    assert "no missions" in pilot.texts()[-1]
-    pilot.send(m.MAVLink_mission_clear_all_message(1, 1, 255))
-    pilot.tick()
-    assert pilot.last("MISSION_ACK").type == m.MAV_MISSION_ACCEPTED
-
-
 @pytest.mark.parametrize(
     ("request_", "words"),
     [
-        (m.MAVLink_mission_request_message(1, 1, 3, 0), "Mission item refused"),
-        (m.MAVLink_mission_request_int_message(1, 1, 3, 0), "Mission item refused"),
-        (m.MAVLink_mission_set_current_message(1, 1, 3), "Mission item refused"),
-        (m.MAVLink_mission_item_message(1, 1, 0, 3, 16, 0, 1, 0, 0, 0, 0, 0, 0, 0), "Mission refused"),
-        (m.MAVLink_mission_item_int_message(1, 1, 0, 3, 16, 0, 1, 0, 0, 0, 0, 0, 0, 0), "Mission refused"),
+        (m.MAVLink_mission_request_message(1, 1, 3, 0), "Plan refused"),
+        (m.MAVLink_mission_request_int_message(1, 1, 3, 0), "Plan refused"),
+        (m.MAVLink_mission_set_current_message(1, 1, 3), "Plan refused"),
+        (m.MAVLink_mission_item_message(1, 1, 0, 3, 16, 0, 1, 0, 0, 0, 0, 0, 0, 0), "Plan refused"),
+        (m.MAVLink_mission_item_int_message(1, 1, 0, 3, 16, 0, 1, 0, 0, 0, 0, 0, 0, 0), "Plan refused"),
         *(
             (m.MAVLink_file_transfer_protocol_message(0, 1, 1, bytes([9, 0, 0, opcode]).ljust(251, b"\0")), "File ")
             for opcode in (4, 5, 6, 14, 15)  # open for reading, read, create, checksum, burst read
         ),
     ],
 )
-def test_what_a_missing_service_refuses_is_said_in_words_but_not_at_every_attempt(
+def test_what_is_refused_again_and_again_is_said_in_words_but_not_at_every_attempt(
     pilot: Pilot, request_: Any, words: str
 ) -> None:
     for _ in range(8):

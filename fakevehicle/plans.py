@@ -1,0 +1,218 @@
+"""Plans that clients load: the mission, the fence and the rally points, and what an item may be.
+
+An item is kept as MAVLink has it, so that it reads back as it was written; places in degrees. `COMMANDS` is the table
+of what this vehicle can do, `item_flaw` looks at one item as it arrives and `plan_flaw` at a whole plan: a plan that is
+stored can be flown. The result codes are MAV_MISSION_RESULT's, told by the number of the parameter that is wrong.
+"""
+
+import math
+import struct
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+from wire.dialect import mavlink
+
+MAX_ITEMS = 1000
+"""Most items of one plan."""
+FARTHEST = 10_000.0
+"""Highest altitude of an item, and largest radius [m]."""
+
+_m = mavlink
+GLOBAL_FRAMES = (_m.MAV_FRAME_GLOBAL, _m.MAV_FRAME_GLOBAL_INT)
+"""Altitude above mean sea level."""
+RELATIVE_FRAMES = (_m.MAV_FRAME_GLOBAL_RELATIVE_ALT, _m.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
+"""Altitude above home."""
+VERTICES = (_m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION, _m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION)
+CIRCLES = (_m.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, _m.MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION)
+
+
+class Kind(Enum):
+    """MAV_MISSION_TYPE."""
+
+    MISSION = 0
+    FENCE = 1
+    RALLY = 2
+
+
+@dataclass(frozen=True, slots=True)
+class PlanItem:
+    """One item.
+
+    Attributes
+    ----------
+    command, frame : MAV_CMD, MAV_FRAME.
+    params : the seven parameters. In a global frame 5 and 6 are latitude and longitude [deg], 7 the altitude [m].
+    autocontinue : whether the next one follows by itself.
+    """
+
+    command: int
+    frame: int
+    params: tuple[float, float, float, float, float, float, float]
+    autocontinue: bool = True
+
+    @property
+    def has_place(self) -> bool:
+        """Whether it names a point on the globe; clients leave 0, 0 or NaN where they name none."""
+        latitude, longitude = self.params[4:6]
+        return not (math.isnan(latitude) or math.isnan(longitude) or latitude == longitude == 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Flaw:
+    """What is wrong with an item or a plan: MAV_MISSION_RESULT, and why in words."""
+
+    result: int
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class CommandKind:
+    """One row of `COMMANDS`.
+
+    Attributes
+    ----------
+    title : for people.
+    place : whether parameters 5, 6 and 7 are a place.
+    limits : lowest and highest value by parameter number; NaN stands for not given and is always allowed.
+    """
+
+    title: str
+    place: bool
+    limits: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+
+
+_SECONDS = (0.0, 86_400.0)
+_RADIUS = (0.0, FARTHEST)
+COMMANDS: Mapping[Kind, Mapping[int, CommandKind]] = {
+    Kind.MISSION: {
+        _m.MAV_CMD_NAV_WAYPOINT: CommandKind("waypoint", True, {1: _SECONDS, 2: _RADIUS}),
+        _m.MAV_CMD_NAV_LOITER_UNLIM: CommandKind("loiter", True),
+        _m.MAV_CMD_NAV_LOITER_TIME: CommandKind("loiter for a time", True, {1: _SECONDS}),
+        _m.MAV_CMD_NAV_RETURN_TO_LAUNCH: CommandKind("return", False),
+        _m.MAV_CMD_NAV_LAND: CommandKind("landing", True),
+        _m.MAV_CMD_NAV_TAKEOFF: CommandKind("takeoff", True),
+        _m.MAV_CMD_NAV_DELAY: CommandKind("delay", False, {1: (-1.0, 86_400.0)}),
+        _m.MAV_CMD_CONDITION_DELAY: CommandKind("delay", False, {1: _SECONDS}),
+        _m.MAV_CMD_CONDITION_YAW: CommandKind("turn", False, {1: (-360.0, 360.0), 4: (0.0, 1.0)}),
+        _m.MAV_CMD_DO_JUMP: CommandKind("jump", False, {1: (0.0, MAX_ITEMS), 2: (-1.0, 65_535.0)}),
+        _m.MAV_CMD_DO_CHANGE_SPEED: CommandKind("speed", False, {1: (0.0, 3.0), 2: (-2.0, 30.0)}),
+    },
+    Kind.FENCE: {
+        _m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION: CommandKind("inclusion vertex", True, {1: (3.0, MAX_ITEMS)}),
+        _m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION: CommandKind("exclusion vertex", True, {1: (3.0, MAX_ITEMS)}),
+        _m.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION: CommandKind("inclusion circle", True, {1: (0.1, FARTHEST)}),
+        _m.MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION: CommandKind("exclusion circle", True, {1: (0.1, FARTHEST)}),
+    },
+    Kind.RALLY: {_m.MAV_CMD_NAV_RALLY_POINT: CommandKind("rally point", True)},
+}
+
+
+def item_flaw(kind: Kind, item: PlanItem) -> Flaw | None:
+    """What is wrong with one item by itself; None when nothing is."""
+    row = COMMANDS[kind].get(item.command)
+    if row is None:
+        return Flaw(_m.MAV_MISSION_UNSUPPORTED, f"command {item.command} is not known here")
+    if row.place and item.frame not in GLOBAL_FRAMES + RELATIVE_FRAMES:
+        return Flaw(_m.MAV_MISSION_UNSUPPORTED_FRAME, f"{row.title} in frame {item.frame}, expected 0, 3, 5 or 6")
+    for number, (low, high) in row.limits.items():
+        value = item.params[number - 1]
+        if not (math.isnan(value) or low <= value <= high):
+            return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected {low:g}..{high:g}")
+    for number, limit in ((5, 90.0), (6, 180.0), (7, FARTHEST)) if row.place else ():
+        value = item.params[number - 1]
+        if abs(value) > limit:
+            return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected at most {limit:g}")
+    if kind is not Kind.MISSION and not item.has_place:
+        return Flaw(_param(5), f"{row.title} without a place")
+    if item.command == _m.MAV_CMD_NAV_WAYPOINT and not item.has_place:
+        return Flaw(_param(5), "waypoint without a place")
+    return None
+
+
+def plan_flaw(kind: Kind, items: Sequence[PlanItem]) -> Flaw | None:
+    """What is wrong with a whole plan whose items are each right; None when nothing is."""
+    if kind is Kind.FENCE:
+        return _polygons_flaw(items)
+    for item in items:
+        if item.command == _m.MAV_CMD_DO_JUMP and not 0 <= item.params[0] < len(items):
+            return Flaw(_param(1), f"jump to item {item.params[0]:g} of {len(items)}")
+    return None
+
+
+def _polygons_flaw(items: Sequence[PlanItem]) -> Flaw | None:
+    """Vertices come in runs as long as the first one says, all of one sort."""
+    i = 0
+    while i < len(items):
+        if items[i].command not in VERTICES:
+            i += 1
+            continue
+        first, count = items[i], items[i].params[0]
+        run = items[i : i + int(count)] if math.isfinite(count) else []
+        if len(run) != count or any(v.command != first.command or v.params[0] != count for v in run):
+            return Flaw(_param(1), f"polygon at item {i}: not {count:g} vertices of one sort")
+        i += len(run)
+    return None
+
+
+def _param(number: int) -> int:
+    """MAV_MISSION_INVALID_PARAM1..7."""
+    return int(_m.MAV_MISSION_INVALID_PARAM1) + number - 1
+
+
+class PlanStore:
+    """The plans that are loaded; `version` counts changes, so that whoever caches derived values looks again."""
+
+    def __init__(self) -> None:
+        self._plans: dict[Kind, tuple[PlanItem, ...]] = {kind: () for kind in Kind}
+        self._versions = dict.fromkeys(Kind, 0)
+
+    def __getitem__(self, kind: Kind) -> tuple[PlanItem, ...]:
+        return self._plans[kind]
+
+    @property
+    def mission(self) -> tuple[PlanItem, ...]:
+        """What MISSION mode flies."""
+        return self._plans[Kind.MISSION]
+
+    @property
+    def fence(self) -> tuple[PlanItem, ...]:
+        """Where the vehicle may fly."""
+        return self._plans[Kind.FENCE]
+
+    @property
+    def rally(self) -> tuple[PlanItem, ...]:
+        """Where a return may end, other than home."""
+        return self._plans[Kind.RALLY]
+
+    @property
+    def version(self) -> int:
+        """Counts changes of any plan."""
+        return sum(self._versions.values())
+
+    def version_of(self, kind: Kind) -> int:
+        """Counts changes of one plan."""
+        return self._versions[kind]
+
+    def replace(self, kind: Kind, items: Sequence[PlanItem]) -> None:
+        """Load a plan.
+
+        Raises
+        ------
+        ValueError : an item or the plan is flawed; whoever takes plans from peers asks `item_flaw` and `plan_flaw`.
+        """
+        flaws = [flaw for item in items if (flaw := item_flaw(kind, item))]
+        flaw = flaws[0] if flaws else plan_flaw(kind, items)
+        if flaw is not None or len(items) > MAX_ITEMS:
+            raise ValueError(flaw.reason if flaw else f"{len(items)} items: expected at most {MAX_ITEMS}")
+        self._plans[kind] = tuple(items)
+        self._versions[kind] += 1
+
+    def opaque_id(self, kind: Kind) -> int:
+        """A number that changes with the plan's content and outlives a restart: its CRC-32; 0 when there is none."""
+        packed = b"".join(_ITEM.pack(i.command, i.frame, i.autocontinue, *i.params) for i in self._plans[kind])
+        return zlib.crc32(packed) if packed else 0
+
+
+_ITEM = struct.Struct("<HBB4f2df")

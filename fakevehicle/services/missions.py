@@ -1,0 +1,445 @@
+"""The mission protocol: plans up, down, in part and cleared; MISSION_CURRENT and MISSION_ITEM_REACHED.
+
+Upload: MISSION_COUNT begins it, the vehicle asks for the items one by one, and MISSION_ACK ends it. Every item is
+looked at as it arrives; the stored plan is replaced only when the whole new one is right, so that an upload that fails
+leaves what was there. A request that stays unanswered is repeated, and given up with an ACK after a while. One upload
+at a time: another client is told that it must wait. Download keeps no state: any item may be asked for at any time.
+
+Items are asked for in the integer form or, for autopilots that do so, in the float one; either is taken and each
+request is answered in the form it asks for. A plan read back has frame 3 where 6 was written and 0 where 5 was only if
+`plain_frames` says so.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from fakevehicle.codec import Message
+from fakevehicle.mission_runner import target_of
+from fakevehicle.modes import Mode, Refusal
+from fakevehicle.places import Places
+from fakevehicle.plans import (
+    GLOBAL_FRAMES,
+    MAX_ITEMS,
+    RELATIVE_FRAMES,
+    Flaw,
+    Kind,
+    PlanItem,
+    PlanStore,
+    item_flaw,
+    plan_flaw,
+)
+from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.service import Builder, Handler, Service
+from fakevehicle.supervisor import Supervisor
+from wire.dialect import mavlink
+
+_m = mavlink
+_LOCAL = (_m.MAV_FRAME_LOCAL_NED, _m.MAV_FRAME_LOCAL_ENU, _m.MAV_FRAME_LOCAL_OFFSET_NED)
+_ALL = 255
+MAX_GOTO = 10_000.0
+"""Farthest place that may be asked for [m]; the local frame is flat."""
+GUIDED_ITEM = 2
+"""MISSION_ITEM.current of an item that is no mission's but a place to go to now."""
+
+
+@dataclass(frozen=True, slots=True)
+class MissionHabits:
+    """How an autopilot speaks the protocol.
+
+    Attributes
+    ----------
+    ask_int : ask for items by MISSION_REQUEST_INT, else by MISSION_REQUEST.
+    retry_us, give_up_us : ask again after this long without an item; end the upload after that long.
+    home_first : item 0 of the mission is home and no item of ours.
+    plain_frames : frames 5 and 6 read back as 0 and 3.
+    """
+
+    ask_int: bool = True
+    retry_us: int = 500_000
+    give_up_us: int = 5_000_000
+    home_first: bool = False
+    plain_frames: bool = False
+
+
+@dataclass(slots=True)
+class _Upload:
+    """One upload under way: items `first`..`last` of a plan of `kind`, the whole of it or a part."""
+
+    sender: Sender
+    kind: Kind
+    first: int
+    last: int
+    partial: bool = False
+    asked_us: int = 0
+    heard_us: int = 0
+    items: list[PlanItem] = field(default_factory=list)
+
+    @property
+    def wanted(self) -> int:
+        return self.first + len(self.items)
+
+
+def home_item(supervisor: Supervisor, places: Places) -> PlanItem | None:
+    """Home as a mission's item; None before it is known."""
+    place = None if supervisor.home is None else places.e7(supervisor.home.position_n)
+    if place is None:
+        return None
+    latitude, longitude, millimetres = place
+    where = (latitude * 1e-7, longitude * 1e-7, millimetres * 1e-3)
+    return PlanItem(_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_FRAME_GLOBAL, (0.0, 0.0, 0.0, 0.0, *where))
+
+
+def go_to(supervisor: Supervisor, places: Places, item: PlanItem, now_us: int) -> str | None:
+    """Fly to the place of an item and hold there; None, or the reason why not."""
+    here_n, home = supervisor.position_n, supervisor.home
+    if here_n is None or home is None:
+        return Refusal.NO_POSITION.value
+    if item.frame not in GLOBAL_FRAMES + RELATIVE_FRAMES:
+        return f"frame {item.frame}, expected a global one"
+    latitude, longitude, altitude = item.params[4:]
+    if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0 and math.isfinite(altitude)):
+        return "the place is not on the globe"
+    target_n = target_of(item, places, float(home.position_n[2]), here_n)
+    if target_n is None:
+        return Refusal.NO_POSITION.value
+    distance = math.dist(target_n, here_n)
+    if distance > MAX_GOTO:
+        return f"{distance / 1000:.1f} km away, expected at most {MAX_GOTO / 1000:g} km"
+    refusal = supervisor.ask_goto(now_us, target_n, math.nan)
+    return None if refusal is None else refusal.value
+
+
+class Missions(Service):
+    """Answers the mission protocol's messages and keeps the plans.
+
+    Parameters
+    ----------
+    store : where the plans are.
+    supervisor : flies the mission.
+    places : turns places into points.
+    outbox : where answers go.
+    warn : says in words what is refused, but not at every attempt.
+    habits : of the autopilot that is played.
+    """
+
+    def __init__(
+        self,
+        store: PlanStore,
+        supervisor: Supervisor,
+        places: Places,
+        outbox: Outbox,
+        warn: Callable[[str], None],
+        habits: MissionHabits | None = None,
+    ) -> None:
+        self._store = store
+        self._runner = supervisor.runner
+        self._supervisor = supervisor
+        self._outbox = outbox
+        self._warn = warn
+        self._places = places
+        self.habits = habits or MissionHabits()
+        self._upload: _Upload | None = None
+        self._now_us = 0
+        self._told: object = None
+        self._reached = 0
+
+    def routes(self) -> Mapping[int, Handler]:
+        """Which message goes where."""
+        return {
+            _m.MAVLINK_MSG_ID_MISSION_REQUEST_LIST: self.request_list,
+            _m.MAVLINK_MSG_ID_MISSION_REQUEST_PARTIAL_LIST: self.request_list,
+            _m.MAVLINK_MSG_ID_MISSION_COUNT: self.count,
+            _m.MAVLINK_MSG_ID_MISSION_WRITE_PARTIAL_LIST: self.write_partial,
+            _m.MAVLINK_MSG_ID_MISSION_CLEAR_ALL: self.clear_all,
+            _m.MAVLINK_MSG_ID_MISSION_REQUEST: self.request_float,
+            _m.MAVLINK_MSG_ID_MISSION_REQUEST_INT: self.request_int,
+            _m.MAVLINK_MSG_ID_MISSION_SET_CURRENT: self.set_current,
+            _m.MAVLINK_MSG_ID_MISSION_ITEM: self.item,
+            _m.MAVLINK_MSG_ID_MISSION_ITEM_INT: self.item,
+            _m.MAVLINK_MSG_ID_MISSION_ACK: self.ack,
+        }
+
+    def builders(self) -> Mapping[int, Builder]:
+        """Messages that can be streamed or asked for."""
+        return {
+            _m.MAVLINK_MSG_ID_MISSION_CURRENT: self.mission_current,
+            _m.MAVLINK_MSG_ID_MISSION_ITEM_REACHED: self.mission_item_reached,
+        }
+
+    # Down
+
+    def request_list(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_REQUEST_LIST, and the one for a part: how many items there are."""
+        kind = _kind(message)
+        if kind is None:
+            self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
+            return
+        count = len(self._items(kind))
+        self._outbox.answer(
+            sender, _m.MAVLink_mission_count_message(sender.system_id, sender.component_id, count, kind.value)
+        )
+
+    def request_int(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_REQUEST_INT: one item, places times 1e7."""
+        self._send(sender, message, _m.MAVLink_mission_item_int_message, integer=True)
+
+    def request_float(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_REQUEST: one item in the old form, places in degrees as 32-bit floats."""
+        self._send(sender, message, _m.MAVLink_mission_item_message, integer=False)
+
+    def _send(self, sender: Sender, message: Message, build: Callable[..., Message], integer: bool) -> None:
+        kind = _kind(message)
+        items = () if kind is None else self._items(kind)
+        if kind is None or message.seq >= len(items):
+            flaw = Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, f"there is no item {message.seq}")
+            self._refuse(sender, message.mission_type, flaw)
+            return
+        item = items[message.seq]
+        x, y = item.params[4:6]
+        if integer:
+            scale = _scale(item.frame)
+            x, y = _int32(x * scale), _int32(y * scale)
+        frame = _PLAIN.get(item.frame, item.frame) if self.habits.plain_frames else item.frame
+        current = kind is Kind.MISSION and message.seq == self._sequence
+        self._outbox.answer(
+            sender,
+            build(
+                sender.system_id,
+                sender.component_id,
+                message.seq,
+                frame,
+                item.command,
+                current,
+                item.autocontinue,
+                *item.params[:4],
+                x,
+                y,
+                item.params[6],
+                kind.value,
+            ),
+        )
+
+    def _items(self, kind: Kind) -> tuple[PlanItem, ...]:
+        """A plan as clients see it."""
+        items = self._store[kind]
+        home = home_item(self._supervisor, self._places) if self.habits.home_first and kind is Kind.MISSION else None
+        return items if home is None else (home, *items)
+
+    # Up
+
+    def count(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_COUNT: an upload begins. None at all is an empty plan."""
+        kind = _kind(message)
+        if kind is None:
+            self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
+        elif self._busy(sender):
+            self._refuse(sender, kind.value, Flaw(_m.MAV_MISSION_DENIED, "another client is uploading"))
+        elif message.count > MAX_ITEMS:
+            flaw = Flaw(_m.MAV_MISSION_NO_SPACE, f"{message.count} items, there is room for {MAX_ITEMS}")
+            self._refuse(sender, kind.value, flaw)
+        elif message.count == 0:
+            self._upload = None
+            self._store.replace(kind, ())
+            self._accept(sender, kind.value)
+        else:
+            self._begin(_Upload(sender, kind, 0, message.count - 1), now_us)
+
+    def write_partial(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_WRITE_PARTIAL_LIST: some items of the stored plan are replaced."""
+        kind = _kind(message)
+        first, last = message.start_index, message.end_index
+        if kind is None:
+            self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
+        elif self._busy(sender):
+            self._refuse(sender, kind.value, Flaw(_m.MAV_MISSION_DENIED, "another client is uploading"))
+        elif not 0 <= first <= last < len(self._items(kind)):
+            flaw = Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, f"items {first}..{last} of {len(self._items(kind))}")
+            self._refuse(sender, kind.value, flaw)
+        else:
+            self._begin(_Upload(sender, kind, first, last, partial=True), now_us)
+
+    def item(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_ITEM_INT or MISSION_ITEM: the one we asked for, or a place to go to."""
+        item = _item(message)
+        if message.current == GUIDED_ITEM:
+            reason = go_to(self._supervisor, self._places, item, now_us)
+            if reason is None:
+                self._accept(sender, Kind.MISSION.value)
+            else:
+                self._refuse(sender, Kind.MISSION.value, Flaw(_m.MAV_MISSION_ERROR, reason))
+            return
+        up = self._upload
+        if up is None or up.sender != sender or message.mission_type != up.kind.value:
+            flaw = Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, "nobody asked for that item")
+            self._refuse(sender, message.mission_type, flaw)
+            return
+        if message.seq != up.wanted:
+            if up.items and message.seq == up.wanted - 1:
+                return  # the same once more: our next request has crossed it
+            flaw = Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, f"item {message.seq}, expected {up.wanted}")
+            self._refuse(sender, up.kind.value, flaw)
+            return
+        home = self.habits.home_first and up.kind is Kind.MISSION and message.seq == 0
+        flaw_found = None if home else item_flaw(up.kind, item)
+        if flaw_found is not None:
+            self._upload = None
+            self._refuse(sender, up.kind.value, Flaw(flaw_found.result, f"item {message.seq}, {flaw_found.reason}"))
+            return
+        up.items.append(item)
+        up.heard_us = now_us
+        if up.wanted <= up.last:
+            self._ask(up, now_us)
+        else:
+            self._finish(up)
+
+    def ack(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_ACK: the end of a download needs no answer; of an upload, the client gives up."""
+        up = self._upload
+        cancelled = message.type != _m.MAV_MISSION_ACCEPTED
+        if up is not None and up.sender == sender and message.mission_type == up.kind.value and cancelled:
+            self._upload = None
+
+    def clear_all(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_CLEAR_ALL: one kind, or all."""
+        kind = _kind(message)
+        if kind is None and message.mission_type != _ALL:
+            self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
+        elif self._busy(sender):
+            self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_DENIED, "another client is uploading"))
+        else:
+            self._upload = None
+            for each in Kind if kind is None else (kind,):
+                self._store.replace(each, ())
+            self._accept(sender, message.mission_type)
+
+    def step(self, now_us: int) -> None:
+        """Ask again or give up, and tell of progress; once a tick."""
+        self._now_us = now_us
+        up = self._upload
+        if up is not None:
+            if now_us - up.heard_us >= self.habits.give_up_us:
+                self._upload = None
+                flaw = Flaw(_m.MAV_MISSION_OPERATION_CANCELLED, f"upload timed out at item {up.wanted}")
+                self._refuse(up.sender, up.kind.value, flaw)
+            elif now_us - up.asked_us >= self.habits.retry_us:
+                self._ask(up, now_us)
+        reached = self._runner.reached_count
+        if reached != self._reached:
+            self._reached = reached
+            message = self.mission_item_reached()
+            if message is not None:
+                self._outbox.everywhere(message)
+        state = (self._runner.current, self._runner.state, self._store.version_of(Kind.MISSION))
+        if state != self._told:
+            first, self._told = self._told is None, state
+            if not first:
+                self._outbox.everywhere(self.mission_current())
+
+    def _busy(self, sender: Sender) -> bool:
+        return self._upload is not None and self._upload.sender != sender
+
+    def _begin(self, up: _Upload, now_us: int) -> None:
+        self._upload = up
+        up.heard_us = now_us
+        self._ask(up, now_us)
+
+    def _ask(self, up: _Upload, now_us: int) -> None:
+        up.asked_us = now_us
+        build = _m.MAVLink_mission_request_int_message if self.habits.ask_int else _m.MAVLink_mission_request_message
+        to = up.sender
+        self._outbox.answer(to, build(to.system_id, to.component_id, up.wanted, up.kind.value))
+
+    def _finish(self, up: _Upload) -> None:
+        self._upload = None
+        old = self._items(up.kind)
+        whole = [*old[: up.first], *up.items, *old[up.last + 1 :]] if up.partial else up.items
+        if self.habits.home_first and up.kind is Kind.MISSION:
+            whole = whole[1:]
+        flaw = plan_flaw(up.kind, whole)
+        if flaw is not None:
+            self._refuse(up.sender, up.kind.value, flaw)
+            return
+        self._store.replace(up.kind, whole)
+        self._accept(up.sender, up.kind.value)
+
+    def _accept(self, sender: Sender, kind: int) -> None:
+        self._answer(sender, kind, _m.MAV_MISSION_ACCEPTED)
+
+    def _refuse(self, sender: Sender, kind: int, flaw: Flaw) -> None:
+        self._answer(sender, kind, flaw.result)
+        self._warn(f"Plan refused: {flaw.reason}")
+
+    def _answer(self, sender: Sender, kind: int, result: int) -> None:
+        self._outbox.answer(sender, _m.MAVLink_mission_ack_message(sender.system_id, sender.component_id, result, kind))
+
+    # Progress
+
+    @property
+    def _sequence(self) -> int:
+        """The current item as clients count."""
+        return self._runner.current + (1 if self.habits.home_first else 0)
+
+    def set_current(self, sender: Sender, message: Message, now_us: int) -> None:
+        """MISSION_SET_CURRENT: answered by MISSION_CURRENT to all."""
+        reason = self.jump(message.seq)
+        if reason is None:
+            self._outbox.everywhere(self.mission_current())
+            self._told = (self._runner.current, self._runner.state, self._store.version_of(Kind.MISSION))
+        else:
+            self._refuse(sender, Kind.MISSION.value, Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, reason))
+
+    def jump(self, sequence: int) -> str | None:
+        """Make an item, as clients count, the current one; None or the reason why not."""
+        index = max(sequence - 1, 0) if self.habits.home_first else sequence
+        if not 0 <= index < len(self._store.mission):
+            return f"there is no item {sequence}"
+        self._runner.set_current(index)
+        return None
+
+    def mission_current(self) -> Message:
+        """Where the mission is. Item 0 of 0 when there is none."""
+        active = self._supervisor.mode is Mode.MISSION
+        mode = 0 if not self._store.mission else 1 if active else 2
+        return _m.MAVLink_mission_current_message(
+            self._sequence if self._store.mission else 0, len(self._store.mission), self._runner.state.value, mode
+        )
+
+    def mission_item_reached(self) -> Message | None:
+        """The newest item that was reached; None before the first."""
+        reached = self._runner.reached
+        if reached is None:
+            return None
+        return _m.MAVLink_mission_item_reached_message(reached + (1 if self.habits.home_first else 0))
+
+
+_PLAIN = {
+    _m.MAV_FRAME_GLOBAL_INT: _m.MAV_FRAME_GLOBAL,
+    _m.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT: _m.MAV_FRAME_GLOBAL_RELATIVE_ALT,
+}
+
+
+def _kind(message: Message) -> Kind | None:
+    """The plan a message is about; MAVLink 1 has only missions."""
+    number = getattr(message, "mission_type", 0)
+    return Kind(number) if 0 <= number <= 2 else None
+
+
+def _scale(frame: int) -> float:
+    """What MISSION_ITEM_INT multiplies x and y by."""
+    return 1.0 if frame == _m.MAV_FRAME_MISSION else 1e4 if frame in _LOCAL else 1e7
+
+
+def _int32(value: float) -> int:
+    return 2**31 - 1 if math.isnan(value) else round(min(max(value, -(2.0**31)), 2.0**31 - 1))
+
+
+def _item(message: Message) -> PlanItem:
+    """An item as it is kept. INT32_MAX in an integer place stands for NaN."""
+    x, y = float(message.x), float(message.y)
+    if message.get_type() == "MISSION_ITEM_INT":
+        scale = _scale(message.frame)
+        x = math.nan if message.x == 2**31 - 1 else message.x / scale
+        y = math.nan if message.y == 2**31 - 1 else message.y / scale
+    params = (message.param1, message.param2, message.param3, message.param4, x, y, message.z)
+    return PlanItem(message.command, message.frame, params, bool(message.autocontinue))
