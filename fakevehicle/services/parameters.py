@@ -5,6 +5,7 @@ INT32 values travel as their four bytes inside the float field (MAV_PROTOCOL_CAP
 the download. Unlike PX4 the vehicle is never silent: an unknown name gets PARAM_ERROR and a text.
 """
 
+import math
 import struct
 import zlib
 from collections.abc import Callable, Mapping
@@ -17,7 +18,7 @@ from fakevehicle.services.service import Handler, Service
 from wire.dialect import mavlink
 
 HASH_NAME = "_HASH_CHECK"
-HASH_INDEX = 65535
+NO_INDEX = HASH_INDEX = 65535
 PER_TICK = 4
 """PARAM_VALUE messages a tick and download: about a thousand a second."""
 MAX_DOWNLOADS = 8
@@ -39,11 +40,20 @@ class Parameters(Service):
     outbox : where answers go.
     read_only : names that are fixed for the vehicle's life.
     warn : tells people (a STATUSTEXT).
+    bytewise : PX4's way, see the module's text. Otherwise ArduPilot's: an integer is the float nearest to it, a value
+        for one is cut to it whatever type was given, there is no hash, and no index but in a list.
     """
 
     def __init__(
-        self, parameters: ParameterSet, outbox: Outbox, read_only: frozenset[str], warn: Callable[[str], None]
+        self,
+        parameters: ParameterSet,
+        outbox: Outbox,
+        read_only: frozenset[str],
+        warn: Callable[[str], None],
+        *,
+        bytewise: bool = True,
     ) -> None:
+        self._bytewise = bytewise
         self._parameters = parameters
         self._outbox = outbox
         self._read_only = read_only
@@ -68,12 +78,13 @@ class Parameters(Service):
 
     def request_read(self, sender: Sender, message: Message, _now_us: int) -> None:
         """One parameter by name, or by index where that is not -1."""
-        if message.param_index < 0 and message.param_id == HASH_NAME:
+        if message.param_index < 0 and message.param_id == HASH_NAME and self._bytewise:
             self._outbox.answer(sender, self._hash_message())
             return
         try:
-            name = self._parameters.name_at(message.param_index) if message.param_index >= 0 else message.param_id
-            self._outbox.answer(sender, self.message(name))
+            by_index = message.param_index >= 0
+            name = self._parameters.name_at(message.param_index) if by_index else message.param_id
+            self._outbox.answer(sender, self.message(name, indexed=by_index or self._bytewise))
         except (KeyError, IndexError):
             self._refuse(sender, message.param_id, message.param_index, NOT_FOUND, "no such parameter")
 
@@ -87,18 +98,20 @@ class Parameters(Service):
             self._refuse(sender, name, -1, NOT_FOUND, "no such parameter")
             return
         kind = self._parameters.describe(name).type
-        if message.param_type != kind.value:
+        if message.param_type != kind.value and self._bytewise:
             reason = f"type {message.param_type}, expected {kind.value} ({kind.name})"
             self._refuse(sender, name, -1, mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE, reason)
         elif name in self._read_only:
             self._refuse(sender, name, -1, mavlink.MAV_PARAM_ERROR_READ_ONLY, "fixed at the start")
         else:
-            value = message.param_value if kind is ParameterType.REAL32 else _int_from(message.param_value)
+            value = message.param_value
+            if kind is ParameterType.INT32:
+                value = _int_from(value) if self._bytewise else _cut(value)
             try:
                 self._parameters.set(name, value)
             except ValueError as error_:
                 self._refuse(sender, name, -1, mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE, str(error_))
-        self._outbox.broadcast(sender.link, self.message(name))
+        self._outbox.broadcast(sender.link, self.message(name, indexed=self._bytewise))
 
     def step(self, now_us: int) -> None:
         """Send the next few values of each running download."""
@@ -107,18 +120,19 @@ class Parameters(Service):
             for index in range(download.next_index, end):
                 self._outbox.answer(download.sender, self.message(self._parameters.name_at(index)))
             download.next_index = end
-            if end == len(self._parameters):
+            if end == len(self._parameters) and self._bytewise:
                 self._outbox.answer(download.sender, self._hash_message())
         if self._downloads:
             self._downloads = [d for d in self._downloads if d.next_index < len(self._parameters)]
 
-    def message(self, name: str) -> Message:
-        """PARAM_VALUE of one parameter; KeyError when there is none of that name."""
+    def message(self, name: str, *, indexed: bool = True) -> Message:
+        """PARAM_VALUE of one parameter, with its index or none; KeyError when there is none of that name."""
         p = self._parameters
         value = p[name]
         kind = p.describe(name).type
-        as_float = float(value) if kind is ParameterType.REAL32 else _float_from(int(value))
-        return mavlink.MAVLink_param_value_message(name.encode("ascii"), as_float, kind.value, len(p), p.index(name))
+        as_float = _float_from(int(value)) if kind is ParameterType.INT32 and self._bytewise else float(value)
+        index = p.index(name) if indexed else NO_INDEX
+        return mavlink.MAVLink_param_value_message(name.encode("ascii"), as_float, kind.value, len(p), index)
 
     def hash(self) -> int:
         """CRC-32 over every name and value in order, as PX4's param_hash_check: no inversion at either end."""
@@ -152,6 +166,11 @@ def _float_from(value: int) -> float:
     """The float whose four bytes are those of an int32."""
     as_float: float = struct.unpack("<f", struct.pack("<i", value))[0]
     return as_float
+
+
+def _cut(value: float) -> float:
+    """Without its fraction, as a cast in C; not finite stays so."""
+    return float(int(value)) if math.isfinite(value) else value
 
 
 def _int_from(value: float) -> int:
