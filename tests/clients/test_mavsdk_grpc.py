@@ -1,0 +1,189 @@
+"""MAVSDK's asyncio API flies the vehicle's process: what a user of `System()` does, from connecting to landing."""
+
+import asyncio
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from vehicle_process import VehicleProcess
+
+pytest.importorskip("mavsdk_grpc")
+
+from mavsdk_client import first, fly, last, ready, until
+from mavsdk_grpc.action import ActionError
+from mavsdk_grpc.ftp import FtpError
+from mavsdk_grpc.offboard import (
+    OffboardError,
+    PositionNedYaw,
+    VelocityBodyYawspeed,
+    VelocityNedYaw,
+)
+from mavsdk_grpc.param import ParamError
+from mavsdk_grpc.telemetry import FlightMode, LandedState
+from pymavlink.mavftp import MAVFTP
+
+pytestmark = pytest.mark.udp
+
+STREAMS = (
+    "position",
+    "home",
+    "in_air",
+    "landed_state",
+    "armed",
+    "vtol_state",
+    "attitude_quaternion",
+    "attitude_euler",
+    "attitude_angular_velocity_body",
+    "velocity_ned",
+    "gps_info",
+    "raw_gps",
+    "battery",
+    "flight_mode",
+    "health",
+    "rc_status",
+    "odometry",
+    "position_velocity_ned",
+    "ground_truth",
+    "fixedwing_metrics",
+    "imu",
+    "health_all_ok",
+    "unix_epoch_time",
+    "heading",
+    "altitude",
+)
+
+
+def test_every_stream_of_telemetry_says_something() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        await ready(system)
+        heard = await asyncio.gather(*(first(getattr(system.telemetry, name)()) for name in STREAMS))
+        told = dict(zip(STREAMS, heard, strict=True))
+        assert told["position"].latitude_deg == pytest.approx(47.397742, abs=1e-4)
+        assert told["home"].absolute_altitude_m == pytest.approx(488.0, abs=3.0)
+        assert abs(told["position_velocity_ned"].position.down_m) < 1.0
+        assert told["ground_truth"].latitude_deg == pytest.approx(47.397742, abs=1e-6)
+        assert abs(told["imu"].acceleration_frd.down_m_s2 + 9.8) < 0.5
+        assert told["flight_mode"] == FlightMode.HOLD
+        assert told["battery"].remaining_percent > 50
+        origin = await system.telemetry.get_gps_global_origin()
+        assert origin.longitude_deg == pytest.approx(8.545594, abs=1e-4)
+
+    fly(story)
+
+
+def test_version_and_identity() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        version = await system.info.get_version()
+        assert (version.flight_sw_major, version.flight_sw_minor) == (0, 1)
+        identity = await system.info.get_identification()
+        assert identity.legacy_uid or identity.hardware_uid
+
+    fly(story)
+
+
+def test_parameters_by_name_and_all_at_once() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        param = system.param
+        everything = await param.get_all_params()
+        ints = {p.name: p.value for p in everything.int_params}
+        floats = {p.name: p.value for p in everything.float_params}
+        assert ints["COM_OBL_RC_ACT"] == 5
+        assert floats["MPC_LAND_SPEED"] == pytest.approx(0.7)
+        await param.set_param_float("MPC_LAND_SPEED", 0.9)
+        await param.set_param_int("COM_OBL_RC_ACT", 4)
+        assert await param.get_param_float("MPC_LAND_SPEED") == pytest.approx(0.9)
+        assert await param.get_param_int("COM_OBL_RC_ACT") == 4
+        with pytest.raises(ParamError):
+            await asyncio.wait_for(param.get_param_float("NO_SUCH_NAME"), 3)
+        with pytest.raises(ParamError):
+            await asyncio.wait_for(param.set_param_float("MPC_LAND_SPEED", 1e6), 3)
+
+    fly(story)
+
+
+def test_files_are_listed_fetched_and_compared(tmp_path: Path) -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        ftp = system.ftp
+        names = [entry.name for entry in (await ftp.list_directory("/")).entries]
+        assert names == ["@PARAM", "etc", "log"]
+        for burst in (False, True):
+            folder = tmp_path / str(burst)
+            folder.mkdir()
+            for name in ("@PARAM/param.pck", "etc/extras/parameters.json"):
+                await last(ftp.download(name, str(folder), burst))
+        assert (tmp_path / "True/parameters.json").read_bytes() == (tmp_path / "False/parameters.json").read_bytes()
+        assert await ftp.are_files_identical(str(tmp_path / "True/parameters.json"), "etc/extras/parameters.json")
+        packed = MAVFTP.ftp_param_decode((tmp_path / "True/param.pck").read_bytes())
+        values = {name.decode(): value for name, value, _ in packed.params}
+        assert values["MPC_LAND_SPEED"] == pytest.approx(0.7)
+        with pytest.raises(FtpError):
+            await last(ftp.download("log/none.mcap", str(tmp_path), False), 5)
+        with pytest.raises(FtpError):
+            await last(ftp.upload(str(tmp_path / "True/parameters.json"), "/log"), 5)
+
+    fly(story)
+
+
+def test_the_recording_comes_by_the_log_protocol_and_by_ftp(tmp_path: Path) -> None:
+    async def story(system: Any, vehicle: VehicleProcess) -> None:
+        await asyncio.sleep(1.0)
+        (entry,) = await system.log_files.get_entries()
+        target = tmp_path / "by_log.mcap"
+        await last(system.log_files.download_log_file(entry, str(target)))
+        (name,) = [listed.name for listed in (await system.ftp.list_directory("/log")).entries]
+        await last(system.ftp.download(f"log/{name}", str(tmp_path), True))
+        vehicle.stop()
+        whole = (tmp_path / "record" / name).read_bytes()
+        by_log, by_ftp = target.read_bytes(), (tmp_path / name).read_bytes()
+        assert 0 < len(by_log) == entry.size_bytes < len(by_ftp) < len(whole)
+        assert whole.startswith(by_log)
+        assert whole.startswith(by_ftp)
+
+    fly(story, "--record", str(tmp_path / "record"))
+
+
+def test_take_off_goto_offboard_in_four_ways_return_and_land() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        action, telemetry, offboard = system.action, system.telemetry, system.offboard
+        await ready(system)
+        with pytest.raises(OffboardError):
+            await offboard.start()  # no setpoint has been set
+        await action.set_takeoff_altitude(3.0)
+        await action.arm()
+        await action.takeoff()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.HOLD, 15)
+        assert await first(telemetry.in_air())
+        with pytest.raises(ActionError):
+            await action.disarm()
+        home = await first(telemetry.home())
+        await action.goto_location(home.latitude_deg + 3e-5, home.longitude_deg, home.absolute_altitude_m + 4.0, 0.0)
+        await until(telemetry.position(), lambda p: abs(p.latitude_deg - home.latitude_deg - 3e-5) < 4e-6, 15)
+
+        await offboard.set_position_ned(PositionNedYaw(2.0, 1.0, -3.0, 45.0))
+        await offboard.start()
+        await until(telemetry.position_velocity_ned(), lambda t: away(t, (2.0, 1.0, -3.0)) < 0.4, 15)
+        assert await first(telemetry.flight_mode()) == FlightMode.OFFBOARD
+        await offboard.set_velocity_ned(VelocityNedYaw(0.0, -1.5, 0.0, 0.0))
+        await until(telemetry.velocity_ned(), lambda v: abs(v.east_m_s + 1.5) < 0.2 and abs(v.north_m_s) < 0.2, 8)
+        await offboard.set_velocity_body(VelocityBodyYawspeed(1.0, 0.0, 0.0, 30.0))
+        await until(telemetry.attitude_euler(), lambda a: 60.0 < a.yaw_deg < 120.0, 8)
+        await offboard.set_velocity_ned(VelocityNedYaw(0.0, 0.0, 0.0, 0.0))
+        await until(telemetry.velocity_ned(), lambda v: math.hypot(v.east_m_s, v.north_m_s) < 0.2, 8)
+        await offboard.stop()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.HOLD, 4)
+
+        await action.return_to_launch()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.RETURN_TO_LAUNCH, 4)
+        await action.hold()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.HOLD, 4)
+        await action.land()
+        await until(telemetry.landed_state(), lambda state: state == LandedState.ON_GROUND, 30)
+        await until(telemetry.armed(), lambda armed: not armed, 6)
+
+    fly(story, "--seed", "5")
+
+
+def away(told: Any, point: tuple[float, float, float]) -> float:
+    p = told.position
+    return math.dist((p.north_m, p.east_m, p.down_m), point)
