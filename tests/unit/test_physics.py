@@ -1,6 +1,7 @@
 """Rigid body, rotors, ground and wind against closed forms and conservation laws."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -79,21 +80,51 @@ def test_wind_is_the_velocity_of_the_air_so_drag_acts_on_the_difference() -> Non
     np.testing.assert_allclose(a[3:6], b[3:6], atol=1e-12)
 
 
-def test_torque_free_turning_keeps_angular_momentum_and_energy() -> None:
-    frame = changed(drag_area=(0.0, 0.0, 0.0), inertia=(0.02, 0.03, 0.05))
-    x = at()
-    x[10:13] = [3.0, 0.2, 1.0]
-    inertia = np.array(frame.inertia)
+def momentum_n(state: FloatArray, body: Any) -> FloatArray:
+    """Angular momentum of frame and rotors in n, (3,) [N m s]; scipy turns it."""
+    w, i, j, k = state[6:10]
+    inner = body["inertia"] * state[10:13]
+    inner[2] += float(body["rotor_inertia"] * body["spin"] @ state[13:17])
+    turned: FloatArray = Rotation.from_quat([i, j, k, w]).apply(inner)
+    return turned
 
-    def momentum_n(state: FloatArray) -> FloatArray:
-        w, i, j, k = state[6:10]
-        turned: FloatArray = Rotation.from_quat([i, j, k, w]).apply(inertia * state[10:13])
-        return turned
 
-    before, energy = momentum_n(x), float(inertia @ x[10:13] ** 2)
-    fly(x, np.zeros(4), 10.0, airframe=frame)
-    np.testing.assert_allclose(momentum_n(x), before, rtol=0, atol=1e-9 * float(np.linalg.norm(before)))
-    assert float(inertia @ x[10:13] ** 2) == pytest.approx(energy, rel=1e-9)
+def drifting(inertia: tuple[float, float, float]) -> Any:
+    """A body that only gravity acts on: no air for frame or rotors."""
+    body = X500.record()[0]
+    body["inertia"], body["k"], body["c_d"], body["drag_area"] = inertia, 0.0, 0.0, 0.0
+    return body
+
+
+@pytest.mark.parametrize("spinning", [False, True])
+def test_without_air_momentum_and_energy_stay_for_a_minute(spinning: bool) -> None:
+    # rotors that spin at a constant speed turn the body about (gyroscopic torque) but do no work on it
+    body, work, anchor = drifting((0.02, 0.03, 0.05)), np.zeros((6, STATE)), np.zeros((4, 3))
+    x = at(-30_000.0)
+    x[3:6], x[10:13] = [2.0, -1.0, 0.0], [3.0, 0.2, 1.0]
+    command = np.array([700.0, 900.0, 600.0, 800.0]) if spinning else np.zeros(4)
+    x[13:17] = command
+    before = momentum_n(x, body)
+    spin = 0.5 * float(body["inertia"] @ x[10:13] ** 2)
+    total = 0.5 * body["mass"] * float(x[3:6] @ x[3:6]) - body["mass"] * body["gravity"] * x[2] + spin
+    for _ in range(60_000):
+        step(x, command, CALM, anchor, body, 0.001, work)
+    np.testing.assert_allclose(momentum_n(x, body), before, rtol=0, atol=1e-9 * float(np.linalg.norm(before)))
+    assert 0.5 * float(body["inertia"] @ x[10:13] ** 2) == pytest.approx(spin, rel=1e-9)
+    ended = 0.5 * body["mass"] * float(x[3:6] @ x[3:6]) - body["mass"] * body["gravity"] * x[2]
+    assert ended + 0.5 * float(body["inertia"] @ x[10:13] ** 2) == pytest.approx(total, rel=1e-9)
+    np.testing.assert_allclose(x[3:6], [2.0, -1.0, 60.0 * GRAVITY], rtol=1e-9)  # linear momentum: the impulse of g
+
+
+def test_rotors_that_change_speed_take_their_momentum_from_the_body() -> None:
+    body, work, anchor = drifting((0.02, 0.03, 0.05)), np.zeros((6, STATE)), np.zeros((4, 3))
+    x = at(-30_000.0)
+    x[10:13] = [1.0, -0.5, 0.3]
+    before = momentum_n(x, body)
+    for k in range(60_000):  # both time constants, over and over
+        command = np.array([900.0, 100.0, 500.0, 0.0]) if k // 500 % 2 else np.array([100.0, 800.0, 0.0, 600.0])
+        step(x, command, CALM, anchor, body, 0.001, work)
+    np.testing.assert_allclose(momentum_n(x, body), before, rtol=0, atol=1e-9 * float(np.linalg.norm(before)))
 
 
 def test_rotors_that_speed_up_together_turn_the_body_against_their_momentum() -> None:
