@@ -7,7 +7,7 @@ import sys
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated, NoReturn, cast, get_args
 
 import numpy as np
 import typer
@@ -15,10 +15,12 @@ from rich.console import Console
 from rich.table import Table
 
 from fakevehicle.airframe import load_airframe
-from fakevehicle.config import MAX_LINKS, LinkConfig, VehicleConfig
+from fakevehicle.config import MAX_LINKS, Autopilot, LinkConfig, VehicleConfig
 from fakevehicle.driver import DriverCounters, LinkPlan, Seat, open_links, px4_links, run
 from fakevehicle.errors import AirframeError, VehicleError
+from fakevehicle.flavours import flavour_of
 from fakevehicle.geodesy import to_geodetic
+from fakevehicle.params import ParameterSet
 from fakevehicle.recordings import FlightLog, Folder
 from fakevehicle.vehicle import PARAMETERS, TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
@@ -52,6 +54,7 @@ def fly(
         list[str] | None,
         typer.Option("--connect", metavar="URL", help="A link for a companion: udpout:HOST:PORT or udpin:HOST:PORT."),
     ] = None,
+    autopilot: Annotated[str, typer.Option(metavar="px4|ardupilot", help="Whose MAVLink behaviour it shows.")] = "px4",
     airframe: Annotated[str, typer.Option(help="A shipped airframe, or a YAML file.")] = "x500",
     home: Annotated[
         str, typer.Option(metavar="LAT,LON,ALT,HEADING", help="Degrees, metres above sea level, degrees.")
@@ -78,12 +81,12 @@ def fly(
         bool, typer.Option("--list-params", help="Print every parameter with range, unit and meaning, and end.")
     ] = False,
 ) -> None:
-    """A simulated PX4 quadrotor that speaks MAVLink over UDP.
+    """A simulated quadrotor that speaks MAVLink over UDP, as PX4 or ArduPilot does.
 
     Without --connect it sends to 127.0.0.1:14550 (ground station) and 127.0.0.1:14540 (companion), as PX4 does.
     """
     if list_params:
-        _list_parameters()
+        _list_parameters(_autopilot(autopilot))
         return
     started_s = time.time()
     try:
@@ -94,7 +97,8 @@ def fly(
         if not SLOWEST <= speed <= FASTEST:
             raise ValueError(f"--speed {speed:g}: expected {SLOWEST:g} to {FASTEST:g}")
         place, heading = _home(home)
-        parameters = dict(_parameter(text) for text in param or [])
+        kind = _autopilot(autopilot)
+        parameters = _parameters(param or [], kind)
         load_airframe(airframe)
         crew: list[_Plan] = []
         for i in range(count):
@@ -109,6 +113,7 @@ def fly(
                 system_id=instance + i + 1,
                 start_unix_us=round(started_s * 1e6),
                 instance=instance + i,
+                autopilot=kind,
             )
             folder = record if record is None or count == 1 else record / str(config.system_id)
             crew.append(_Plan(config, parameters, plans, folder))
@@ -240,26 +245,51 @@ def _wind(text: str) -> FloatArray:
     return wind
 
 
-def _parameter(text: str) -> tuple[str, float]:
+def _autopilot(text: str) -> Autopilot:
+    """One of the flavours."""
+    known = {name: name for name in get_args(Autopilot)}
+    if text not in known:
+        _fail(f"--autopilot {text}: expected one of {', '.join(known)}", 2)
+    return cast(Autopilot, known[text])
+
+
+def _known(autopilot: Autopilot) -> tuple[ParameterSet, ParameterSet]:
+    """The parameters of a flavour under our names, and the same under its names."""
+    flavour = flavour_of(autopilot)
+    whole = ParameterSet((*PARAMETERS, *flavour.parameters), flavour.defaults)
+    return whole, flavour.named(whole)
+
+
+def _parameters(texts: list[str], autopilot: Autopilot) -> dict[str, float]:
+    """What differs from the flavour's defaults, under our names."""
+    whole, named = _known(autopilot)
+    usual = {name: whole[name] for name in whole}
+    for text in texts:
+        named.set(*_parameter(text, named))
+    return {name: whole[name] for name in whole if whole[name] != usual[name]}
+
+
+def _parameter(text: str, known: ParameterSet) -> tuple[str, float]:
     """Name and value; the name must exist."""
     name, separator, value = text.partition("=")
-    known = {p.name: p for p in PARAMETERS}
     if not separator:
         raise ValueError(f"--param {text}: expected NAME=VALUE")
     if name not in known:
         near = difflib.get_close_matches(name, known, n=1)
         raise ValueError(f"--param {text}: no parameter {name}" + (f", did you mean {near[0]}?" if near else ""))
     try:
-        return name, float(known[name].coerced(float(value)))
+        return name, float(known.describe(name).coerced(float(value)))
     except ValueError as error:
         raise ValueError(f"--param {text}: {error}") from error
 
 
-def _list_parameters() -> None:
+def _list_parameters(autopilot: Autopilot) -> None:
     """A table of every parameter."""
+    _, named = _known(autopilot)
     table = Table("parameter", "default", "range", "unit", "meaning")
-    for p in sorted(PARAMETERS, key=lambda p: p.name):
-        table.add_row(p.name, f"{p.default:g}", f"{p.minimum:g}..{p.maximum:g}", p.unit, p.description)
+    for name in named:
+        p = named.describe(name)
+        table.add_row(p.name, f"{named[name]:g}", f"{p.minimum:g}..{p.maximum:g}", p.unit, p.description)
     Console().print(table)
 
 

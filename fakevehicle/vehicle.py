@@ -50,7 +50,7 @@ from wire.dialect import mavlink
 from wire.framing import Framer
 
 TICK_US = 4_000
-READ_ONLY = frozenset({"MAV_SYS_ID"})
+READ_ONLY = frozenset({"MAV_SYS_ID", "SYSID_THISMAV"})
 LOOK_US = 20_000
 """The supervisor looks at the estimate every fifth tick, when most streams are due too: reading it costs a third of a
 tick's physics."""
@@ -139,14 +139,15 @@ class Vehicle:
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places, flavour)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
         recordings = MemoryFiles() if files is None else files
-        metadata = Metadata(self.parameters, READ_ONLY, self._now)
-        tree = Tree({PARAM_FILE: lambda query: pack(self.parameters, query), **metadata.files}, {"log": recordings})
-        missions = Missions(store, self._supervisor, self._places, self._outbox, self._warn_rarely)
+        named = flavour.named(self.parameters)
+        metadata = Metadata(named, READ_ONLY, self._now)
+        tree = Tree({PARAM_FILE: lambda query: pack(named, query), **metadata.files}, {"log": recordings})
+        missions = Missions(store, self._supervisor, self._places, self._outbox, self._warn_rarely, flavour.habits)
         self._services: tuple[Service, ...] = (
             self._telemetry,
             self._commands,
             self._setpoints,
-            Parameters(self.parameters, self._outbox, READ_ONLY, self._warn),
+            Parameters(named, self._outbox, READ_ONLY, self._warn, bytewise=flavour.bytewise),
             Timing(self._outbox),
             missions,
             Navigation(
@@ -173,6 +174,7 @@ class Vehicle:
                 self._telemetry,
                 self._streams,
                 self._setpoints,
+                self._commands,
             )
         )
         services = self._services

@@ -4,12 +4,13 @@
 """
 
 from fakevehicle.config import Autopilot
+from fakevehicle.flavours.ardupilot import ArduPilot
 from fakevehicle.flavours.base import Flavour
 from fakevehicle.flavours.px4 import Px4
 
 __all__ = ["FLAVOURS", "Flavour", "flavour_of"]
 
-FLAVOURS: dict[Autopilot, type[Flavour]] = {"px4": Px4}
+FLAVOURS: dict[Autopilot, type[Flavour]] = {"px4": Px4, "ardupilot": ArduPilot}
 
 
 def flavour_of(autopilot: Autopilot) -> Flavour:

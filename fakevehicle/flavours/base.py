@@ -16,6 +16,8 @@ from fakevehicle.config import Profile
 from fakevehicle.flight import FlightStack
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
+from fakevehicle.services.commands import Commands
+from fakevehicle.services.missions import MissionHabits
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Command, Service, Verdict
 from fakevehicle.services.setpoints import Setpoints
@@ -40,6 +42,7 @@ class Parts:
     telemetry: Telemetry
     streams: Streams
     setpoints: Setpoints
+    commands: Commands
 
 
 class Flavour(Service):
@@ -50,6 +53,7 @@ class Flavour(Service):
     parameters : parameters that only this flavour has.
     defaults : values of the others that differ from their own defaults, by name.
     bytewise : whether integers travel as their bytes inside a parameter's float, or as the float nearest to them.
+    habits : how it speaks the mission protocol.
     texts_first : whether notes are told before the HEARTBEAT of a new mode.
     parts : the vehicle's rooms, from `attach` on.
     """
@@ -58,6 +62,7 @@ class Flavour(Service):
     defaults: Mapping[str, float] = {}
     bytewise = True
     texts_first = True
+    habits = MissionHabits()
     parts: Parts
 
     def attach(self, parts: Parts) -> None:
@@ -83,11 +88,11 @@ class Flavour(Service):
         """How a note of the supervisor's is put; None: it is kept to itself."""
         return severity, text
 
-    def judged(self, command: Command, title: str, verdict: Verdict) -> tuple[int, Said | None]:
-        """MAV_RESULT of a command, and the text that explains a refusal."""
+    def judged(self, command: Command, title: str, verdict: Verdict) -> tuple[int, tuple[Said, ...]]:
+        """MAV_RESULT of a command, and the texts that explain a refusal."""
         if not verdict.reason:
-            return verdict.result, None
-        return verdict.result, (mavlink.MAV_SEVERITY_CRITICAL, f"{title} denied: {verdict.reason}")
+            return verdict.result, ()
+        return verdict.result, ((mavlink.MAV_SEVERITY_CRITICAL, f"{title} denied: {verdict.reason}"),)
 
     def acknowledged(self, sender: Sender) -> None:
         """A command's ACK has just been sent: whatever is to follow it."""

@@ -30,6 +30,8 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
         _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
         _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 1,
         _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
+        _m.MAVLINK_MSG_ID_MISSION_CURRENT: 1,
+        _m.MAVLINK_MSG_ID_MISSION_ITEM_REACHED: 1,
     },
     "onboard": {
         _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
@@ -52,6 +54,8 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
         _m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: 1,
         _m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: 5,
         _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
+        _m.MAVLINK_MSG_ID_MISSION_CURRENT: 1,
+        _m.MAVLINK_MSG_ID_MISSION_ITEM_REACHED: 1,
         _m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: 50,  # the simulator's truth, for judging a flight; no loop sees it
     },
 }

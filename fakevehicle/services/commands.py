@@ -47,8 +47,8 @@ _RELATIVE = (mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT, mavlink.MAV_FRAME_GLOBAL_REL
 class Judge(Protocol):
     """What a flavour has to say about every command."""
 
-    def judged(self, command: Command, title: str, verdict: Verdict) -> tuple[int, tuple[int, str] | None]:
-        """MAV_RESULT, and the text (severity, words) that explains a refusal."""
+    def judged(self, command: Command, title: str, verdict: Verdict) -> tuple[int, tuple[tuple[int, str], ...]]:
+        """MAV_RESULT, and the texts (severity, words) that explain a refusal."""
 
     def acknowledged(self, sender: Sender) -> None:
         """The ACK has just been sent."""
@@ -135,8 +135,8 @@ class Commands(Service):
         self._flavour.acknowledged(sender)
         if verdict.reason:
             self.rejected += 1
-        if said is not None:
-            self._outbox.text(*said)
+        for severity, text in said:
+            self._outbox.text(severity, text)
 
     # The commands, in the order of their numbers
 

@@ -1,0 +1,143 @@
+"""Setpoints in GUIDED: read as ArduCopter reads them, flown by the supervisor, and carried on while the next is late.
+
+They are flown in GUIDED only and after the takeoff; what is not flown is dropped, with a text at most once a second
+(ArduCopter drops in silence). What cannot be read is a stop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fakevehicle.codec import Message
+from fakevehicle.flavours.ardupilot_modes import GUIDED
+from fakevehicle.flavours.base import Parts
+from fakevehicle.flavours.guided import POSITION, Wanted, carried_on, setpoint_of, stop
+from fakevehicle.modes import Mode
+from fakevehicle.services.commands import RADIANS_PER_E7
+from fakevehicle.services.outbox import Sender
+from fakevehicle.services.service import Handler, Service
+from fakevehicle.vocabulary import Geodetic, Setpoint
+from wire.dialect import mavlink
+
+if TYPE_CHECKING:
+    from fakevehicle.flavours.ardupilot import ArduPilot
+
+CARRY_US = 60_000
+"""A setpoint older than this is carried on along its velocity."""
+_m = mavlink
+_GLOBAL = (_m.MAV_FRAME_GLOBAL, _m.MAV_FRAME_GLOBAL_INT)
+_RELATIVE = (_m.MAV_FRAME_GLOBAL_RELATIVE_ALT, _m.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
+
+
+class GuidedSetpoints(Service):
+    """The three setpoint messages."""
+
+    def __init__(self, flavour: ArduPilot, parts: Parts) -> None:
+        self._flavour = flavour
+        self._parts = parts
+        self._asked: Setpoint | None = None  # newest, as it came
+        self._asked_us = 0
+
+    def routes(self) -> Mapping[int, Handler]:
+        """The three setpoint messages."""
+        return {
+            _m.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED: self.local_ned,
+            _m.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT: self.global_int,
+            _m.MAVLINK_MSG_ID_SET_ATTITUDE_TARGET: self.attitude,
+        }
+
+    def local_ned(self, _sender: Sender, m: Message, now_us: int) -> None:
+        """SET_POSITION_TARGET_LOCAL_NED."""
+        self._take(m, m.coordinate_frame, np.array([m.x, m.y, m.z]), now_us)
+
+    def global_int(self, _sender: Sender, m: Message, now_us: int) -> None:
+        """SET_POSITION_TARGET_GLOBAL_INT: latitude and longitude e7, altitude above sea level or above home."""
+        places, home = self._parts.places, self._parts.supervisor.home
+        origin = places.origin
+        position_n = None
+        if abs(m.lat_int) <= 900_000_000 and abs(m.lon_int) <= 1_800_000_000 and origin is not None:
+            place = Geodetic(m.lat_int * RADIANS_PER_E7, m.lon_int * RADIANS_PER_E7, origin.altitude)
+            position_n = places.local(place)
+        if position_n is None or origin is None or home is None or m.coordinate_frame not in _GLOBAL + _RELATIVE:
+            position_n, frame = np.zeros(3), _m.MAV_FRAME_GLOBAL  # a frame in which nothing can be flown: a stop
+        else:
+            relative = m.coordinate_frame in _RELATIVE
+            position_n[2] = (float(home.position_n[2]) if relative else origin.altitude) - m.alt
+            frame = _m.MAV_FRAME_LOCAL_NED
+        self._take(m, frame, position_n, now_us)
+
+    def attitude(self, sender: Sender, message: Message, now_us: int) -> None:
+        """SET_ATTITUDE_TARGET, as below, in GUIDED."""
+        if self._flown(now_us):
+            self._asked = None
+            self._parts.setpoints.attitude(sender, message, now_us)
+
+    def stop(self, now_us: int) -> None:
+        """Forget what was followed, and stand still."""
+        self._asked = None
+        self._parts.supervisor.offboard(now_us, stop())
+
+    def look(self, now_us: int) -> None:
+        """A followed point goes on at its velocity while the next one is late."""
+        s, asked = self._parts.supervisor, self._asked
+        if asked is None:
+            return
+        if s.mode is not Mode.GUIDED or not s.airborne:
+            self._asked = None
+        elif now_us - self._asked_us > CARRY_US:
+            age_s, timeout_s = (now_us - self._asked_us) * 1e-6, float(self._parts.parameters["GUID_TIMEOUT"])
+            moved = carried_on(asked, age_s, timeout_s)
+            if moved is not None:
+                s.offboard(now_us, moved)
+            if moved is None or age_s > timeout_s:
+                self._asked = None  # it rests from here on
+
+    def _take(
+        self, m: Message, frame: int, position: np.ndarray[tuple[int], np.dtype[np.float64]], now_us: int
+    ) -> None:
+        s = self._parts.supervisor
+        here_n, heading = s.position_n, s.yaw
+        if not self._flown(now_us) or here_n is None or heading is None:
+            return
+        wanted = Wanted(
+            m.type_mask,
+            frame,
+            position,
+            np.array([m.vx, m.vy, m.vz]),
+            np.array([m.afx, m.afy, m.afz]),
+            m.yaw,
+            m.yaw_rate,
+        )
+        asked = setpoint_of(wanted, here_n, heading)
+        if asked is None:
+            self._refuse("not a combination that can be flown: a stop", now_us)
+            self.stop(now_us)
+            return
+        if not m.type_mask & POSITION and self._outside(asked):
+            self._refuse("outside the fence", now_us)
+            return
+        self._asked, self._asked_us = asked, now_us
+        s.offboard(now_us, asked)
+
+    def _outside(self, asked: Setpoint) -> bool:
+        s = self._parts.supervisor
+        if s.home is None or not self._parts.parameters["GF_ACTION"]:
+            return False
+        return s.fence.breach_at(asked.position_n, s.home.position_n) is not None
+
+    def _flown(self, now_us: int) -> bool:
+        s = self._parts.supervisor
+        if self._flavour.number != GUIDED or s.mode is not Mode.GUIDED:
+            self._refuse("the mode is not GUIDED", now_us)
+            return False
+        if not s.airborne or s.taking_off:
+            self._refuse("not before the takeoff is done", now_us)
+            return False
+        return True
+
+    def _refuse(self, reason: str, now_us: int) -> None:
+        self._parts.setpoints.rejected += 1
+        self._flavour.warn(f"Setpoint refused: {reason}", now_us)
