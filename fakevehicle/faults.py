@@ -1,11 +1,29 @@
 """Faults on a schedule: which sensor misbehaves how, and when.
 
-A schedule is fixed before the flight or added to in it; whoever simulates a sensor asks `active` at each sample.
+A schedule is fixed before the flight or added to in it; whoever simulates a sensor sends each of its words, an array of
+numbers, through a `Channel`:
+
+    OFF     nothing comes            STUCK   the last word, for ever
+    BIAS    word + magnitude         NOISE   word + magnitude * n          DELAY   the word of `magnitude` seconds ago
+
+Several hold together, in the order in which they were given.
 """
 
+import math
+import re
+from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
+
+import numpy as np
+
+from fakevehicle.vocabulary import FloatArray
+
+MOST = 64
+"""Faults a schedule holds; more can come in flight."""
+LONGEST_DELAY_S = 5.0
+"""Words older than this are forgotten [s]."""
 
 
 class Sensor(Enum):
@@ -51,6 +69,51 @@ class Fault:
     magnitude: tuple[float, ...] = ()
     index: int = 0
 
+    def __post_init__(self) -> None:
+        what = f"fault {self.sensor.value}:{self.kind.value}"
+        if self.start_us < 0 or (self.end_us is not None and self.end_us <= self.start_us):
+            raise ValueError(f"{what}: from {self.start_us} to {self.end_us} us, expected an end after the start")
+        if len(self.magnitude) > 6 or not all(math.isfinite(m) for m in self.magnitude):
+            raise ValueError(f"{what}: magnitude {self.magnitude}, expected at most six finite numbers")
+        if self.kind in (FaultKind.BIAS, FaultKind.NOISE, FaultKind.DELAY) and not self.magnitude:
+            raise ValueError(f"{what}: expected a magnitude, as in {self.sensor.value}:{self.kind.value}=0.5")
+        if self.kind in (FaultKind.NOISE, FaultKind.DELAY) and min(self.magnitude) < 0.0:
+            raise ValueError(f"{what}: magnitude {self.magnitude}, expected none below 0")
+        if self.kind is FaultKind.DELAY and self.magnitude[0] > LONGEST_DELAY_S:
+            raise ValueError(f"{what}: {self.magnitude[0]:g} s, expected at most {LONGEST_DELAY_S:g}")
+        if not 0 <= self.index < 8:
+            raise ValueError(f"{what}: index {self.index}, expected 0..7")
+
+
+_TEXT = re.compile(
+    r"(?P<sensor>[a-z]+)(?P<index>\d?):(?P<kind>[a-z]+)(=(?P<magnitude>[^@]+))?(@(?P<start>[\d.]+)(-(?P<end>[\d.]+))?)?"
+)
+
+
+def parse_fault(text: str) -> Fault:
+    """A fault as people write it: SENSOR[NUMBER]:KIND[=NUMBERS][@START[-END]], times in seconds since the start.
+
+    "gps:off@20-40", "gyro:bias=0.02,0,0@10", "baro:delay=0.5", "motor2:bias=0.65@30" (motors count from 1).
+
+    Raises
+    ------
+    ValueError : it is not of that form, or cannot be; the message says why.
+    """
+    match = _TEXT.fullmatch(text.strip().lower())
+    if match is None:
+        raise ValueError(f"fault {text!r}: expected SENSOR:KIND[=NUMBERS][@START[-END]], as in gps:off@20-40")
+    try:
+        sensor, kind = Sensor(match["sensor"]), FaultKind(match["kind"])
+    except ValueError:
+        sensors, kinds = (", ".join(m.value for m in members) for members in (Sensor, FaultKind))
+        raise ValueError(f"fault {text!r}: expected one of {sensors}, then one of {kinds}") from None
+    try:
+        magnitude = tuple(float(m) for m in match["magnitude"].split(",")) if match["magnitude"] else ()
+        start, end = (None if t is None else round(1e6 * float(t)) for t in (match["start"], match["end"]))
+    except ValueError:
+        raise ValueError(f"fault {text!r}: a magnitude or a time is not a number") from None
+    return Fault(sensor, kind, start or 0, end, magnitude, max(int(match["index"] or 1) - 1, 0))
+
 
 class FaultSchedule:
     """The faults of one flight.
@@ -63,9 +126,13 @@ class FaultSchedule:
     def __init__(self, faults: Iterable[Fault] = ()) -> None:
         self._faults = tuple(faults)
 
+    def concerns(self, *sensors: Sensor) -> bool:
+        """Whether there is, was or will be a fault of one of these."""
+        return any(f.sensor in sensors for f in self._faults)
+
     def add(self, fault: Fault) -> None:
-        """One more."""
-        self._faults = (*self._faults, fault)
+        """One more; when there are `MOST`, the oldest is forgotten."""
+        self._faults = (*self._faults, fault)[-MOST:]
 
     def mend(self, sensor: Sensor, now_us: int) -> None:
         """End every fault of one sensor that holds at `now_us`."""
@@ -81,3 +148,51 @@ class FaultSchedule:
             for f in self._faults
             if f.sensor is sensor and f.start_us <= now_us and (f.end_us is None or now_us < f.end_us)
         )
+
+
+class Channel:
+    """The way of one sensor's words through its faults.
+
+    Parameters
+    ----------
+    sensor : whose.
+    schedule : of all faults.
+    rng : of the NOISE faults; the sensor's own noise has another.
+    """
+
+    def __init__(self, sensor: Sensor, schedule: FaultSchedule, rng: np.random.Generator) -> None:
+        self._sensor, self._schedule, self._rng = sensor, schedule, rng
+        self._last: FloatArray | None = None
+        self._past: deque[tuple[int, FloatArray]] = deque(maxlen=1024)
+
+    def through(self, now_us: int, word: FloatArray) -> FloatArray | None:
+        """What comes out when the sensor says `word`, (n,); None: nothing."""
+        if not self._schedule.concerns(self._sensor):
+            return word
+        self._past.append((now_us, word))
+        while now_us - self._past[0][0] > LONGEST_DELAY_S * 1e6:
+            self._past.popleft()
+        for fault in self._schedule.active(self._sensor, now_us):
+            match fault.kind:
+                case FaultKind.OFF:
+                    return None
+                case FaultKind.STUCK:
+                    word = word if self._last is None else self._last
+                case FaultKind.BIAS:
+                    word = word + spread(fault.magnitude, len(word))
+                case FaultKind.NOISE:
+                    word = word + spread(fault.magnitude, len(word)) * self._rng.standard_normal(len(word))
+                case FaultKind.DELAY:
+                    true_us = now_us - round(1e6 * fault.magnitude[0])
+                    word = next((w for t, w in reversed(self._past) if t <= true_us), self._past[0][1])
+        self._last = word
+        return word
+
+
+def spread(magnitude: tuple[float, ...], n: int) -> FloatArray:
+    """A magnitude for n numbers: one for all, or one each and zero for the rest."""
+    if len(magnitude) == 1:
+        return np.full(n, magnitude[0])
+    out = np.zeros(n)
+    out[: len(magnitude)] = magnitude[:n]
+    return out

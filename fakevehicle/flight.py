@@ -119,8 +119,11 @@ class FlightStack:
             world=world,
             period_us=self.TICK_US,
             q_nb=self._x[6:10],
+            imu=self._imu,
+            ground=float(self._body[0]["ground"]),
         )
-        self._estimator = Estimator(estimator_config(p), field_n(), GRAVITY, self.TICK_US)
+        field = field_n(math.radians(p["EKF2_MAG_DECL"]), math.radians(p["SIM_MAG_INCL"]))
+        self._estimator = Estimator(estimator_config(p), field, GRAVITY, self.TICK_US)
         self._turbulent = False
         self._resets = self._estimator.resets
         self._speed_max = airframe.max_rotor_speed
