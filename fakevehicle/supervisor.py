@@ -109,6 +109,11 @@ class Supervisor:
         return self.mode is Mode.TAKEOFF or self.navigator.climbing
 
     @property
+    def battery_good(self) -> bool:
+        """Whether the charge is enough to arm with."""
+        return self.remaining >= self._parameters["BAT_CRIT_THR"]
+
+    @property
     def runner(self) -> MissionRunner:
         """The mission's progress."""
         return self.navigator.runner
@@ -138,7 +143,7 @@ class Supervisor:
             setpoints_fresh=self.setpoints_fresh(now_us),
             mode=self.mode,
             mission_loaded=bool(self._store.mission),
-            battery_good=self.remaining >= self._parameters["BAT_CRIT_THR"],
+            battery_good=self.battery_good,
             fence_kept=self.fence.breach is None,
         )
 

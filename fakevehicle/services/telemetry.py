@@ -27,13 +27,17 @@ NAN = math.nan
 _UNKNOWN16 = 0xFFFF
 VERSION = 0 << 24 | 1 << 16 | 0 << 8 | mavlink.FIRMWARE_VERSION_TYPE_DEV
 CAPABILITIES = (
-    mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT
+    mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_FTP
     | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
     | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
     | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_RALLY
 )
 _INERTIAL = mavlink.MAV_SYS_STATUS_SENSOR_3D_GYRO | mavlink.MAV_SYS_STATUS_SENSOR_3D_ACCEL
 _SENSORS = (
@@ -112,10 +116,14 @@ class Telemetry(Service):
         return mavlink.MAVLink_extended_sys_state_message(mavlink.MAV_VTOL_STATE_UNDEFINED, landed)
 
     def sys_status(self) -> Message:
-        """Health as the estimator has it; PREARM says whether arming would be accepted now (or has been)."""
+        """Health as the estimator has it; PREARM says whether arming would be accepted now (or has been).
+
+        The geofence is there when one is loaded, and in order while it is not breached: clients call out its breach
+        when its health goes, whether it is there or not.
+        """
         e, s, b = self.estimate, self._supervisor, self._battery
         health = _INERTIAL | mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER
-        health |= mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE | mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
+        health |= mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
         health |= mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
         if self._stack.gps is not None:
             health |= mavlink.MAV_SYS_STATUS_SENSOR_GPS
@@ -123,9 +131,14 @@ class Telemetry(Service):
             health |= mavlink.MAV_SYS_STATUS_AHRS
         if s.armed or s.why_not_armable(self.now_us) is None:
             health |= mavlink.MAV_SYS_STATUS_PREARM_CHECK
+        if s.battery_good:
+            health |= mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
+        if s.fence.breach is None:
+            health |= mavlink.MAV_SYS_STATUS_GEOFENCE
+        present = _SENSORS | (mavlink.MAV_SYS_STATUS_GEOFENCE if s.fence.present else 0)
         millivolts, centiamps = round(b.voltage * 1e3), round(b.current * 1e2)
         return mavlink.MAVLink_sys_status_message(
-            _SENSORS, _SENSORS, health, 0, millivolts, centiamps, round(b.remaining * 100), 0, 0, 0, 0, 0, 0
+            present, present, health, 0, millivolts, centiamps, round(b.remaining * 100), 0, 0, 0, 0, 0, 0
         )
 
     def system_time(self) -> Message:
