@@ -43,9 +43,9 @@ clean:           ## remove the environment and caches
 	rm -rf $(VENV) $(PEERS) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info
 	find $(PACKAGES) tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# --no-deps: mealpy pins an old numpy, and needs of pandas only that it can be imported.
+# --no-deps: mealpy pins an old numpy, and needs of pandas only that it can be imported; of rotorpy only the plant is used.
 $(PEERS)/.installed: $(STAMP)
-	$(BIN)/python -m pip install -q --no-deps --target $(PEERS) --upgrade mealpy==3.0.3 pandas python-dateutil six tzdata
+	$(BIN)/python -m pip install -q --no-deps --target $(PEERS) --upgrade mealpy==3.0.3 rotorpy==3.0.0 pandas python-dateutil six tzdata
 	@touch $@
 
 $(STAMP): pyproject.toml constraints.txt

@@ -6,6 +6,7 @@ from benchmarks import (
     bench_certificates,
     bench_fields,
     bench_mazes,
+    bench_physics,
     bench_planner,
     bench_replan,
     bench_rivals,
@@ -26,6 +27,7 @@ def main() -> None:
     bench_fields.main()
     bench_search.main()
     bench_simulate.main()
+    bench_physics.main()
 
 
 if __name__ == "__main__":
