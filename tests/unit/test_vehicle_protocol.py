@@ -199,7 +199,9 @@ def test_a_requested_message_comes_before_its_ack(pilot: Pilot) -> None:
     capabilities = pilot.last("AUTOPILOT_VERSION").capabilities
     assert capabilities & m.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
     assert capabilities & m.MAV_PROTOCOL_CAPABILITY_FTP
-    assert not capabilities & m.MAV_PROTOCOL_CAPABILITY_MISSION_INT
+    assert capabilities & m.MAV_PROTOCOL_CAPABILITY_MISSION_INT
+    assert capabilities & m.MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
+    assert not capabilities & m.MAV_PROTOCOL_CAPABILITY_TERRAIN
     assert pilot.command(512, 9999) == DENIED
 
 
