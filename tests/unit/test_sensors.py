@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from fakevehicle.faults import Channel, FaultSchedule, Sensor, parse_fault
 from fakevehicle.geodesy import to_geodetic, to_local
 from fakevehicle.sensors.barometer import Barometer, altitude_of, pressure_at
 from fakevehicle.sensors.gps import GpsReceiver
 from fakevehicle.sensors.imu import GYRO_RANGE, IMU, integrate_imu, read_gyro
 from fakevehicle.sensors.magnetometer import Magnetometer, field_n
+from fakevehicle.sensors.obstacles import MAXIMUM, SECTORS, ObstacleSensor, World
+from fakevehicle.sensors.rangefinder import Rangefinder
 from fakevehicle.vocabulary import FloatArray, Geodetic
 
 HOME = Geodetic(math.radians(47.397742), math.radians(8.545594), 488.0)
@@ -131,3 +134,138 @@ def test_an_imu_at_rest_feels_its_weight_and_clips_what_is_too_fast() -> None:
     x[10] = 100.0
     read_gyro(x, imu[0], np.zeros(6), 0)
     assert imu["gyro_sample"][0, 0] == GYRO_RANGE
+
+
+def test_hard_iron_turns_with_the_body_and_declination_with_the_place() -> None:
+    magnetometer = Magnetometer(np.random.default_rng(1), 0.0)
+    magnetometer.hard_iron_b = np.array([0.1, -0.05, 0.02])
+    magnetometer.field_n = field_n(math.radians(20.0), math.radians(50.0))
+    level = np.array([1.0, 0.0, 0.0, 0.0])
+    seen = magnetometer.measure(0, level).field_b - magnetometer.hard_iron_b
+    assert math.degrees(math.atan2(seen[1], seen[0])) == pytest.approx(20.0)
+    assert math.degrees(math.atan2(seen[2], math.hypot(seen[0], seen[1]))) == pytest.approx(50.0)
+    assert float(np.linalg.norm(seen)) == pytest.approx(0.484)
+
+
+def fixes(gps: GpsReceiver, seconds: float) -> list[tuple[float, FloatArray, int]]:
+    out = []
+    for k in range(round(10 * seconds)):
+        gps.measure(100_000 * k, np.zeros(3), np.zeros(3))
+        fix = gps.arrived(100_000 * k + gps.delay_us)
+        assert fix is not None
+        out.append((0.1 * k, to_local(fix.position, HOME), fix.fix_type))
+    return out
+
+
+def test_a_receiver_loses_the_share_of_fixes_it_is_asked_to() -> None:
+    gps = GpsReceiver(HOME, np.random.default_rng(5), 4000, 0.3, 0.05)
+    gps.lost = 0.3
+    lost = [kind != 3 for _, _, kind in fixes(gps, 400.0)]
+    assert float(np.mean(lost)) == pytest.approx(0.3, abs=0.03)
+
+
+def test_glitches_are_as_large_as_asked_last_five_seconds_and_come_as_often() -> None:
+    gps = GpsReceiver(HOME, np.random.default_rng(6), 4000, 0.0, 0.05)
+    gps.glitch, gps.glitch_every_s = 20.0, 50.0
+    off = np.array([math.hypot(*place[:2]) for _, place, _ in fixes(gps, 4000.0)])
+    glitching = off > 1e-3
+    np.testing.assert_allclose(off[glitching], 20.0, atol=1e-3)
+    starts = int(np.sum(glitching[1:] & ~glitching[:-1]))
+    assert 50 < starts < 95  # 4000 s / (50 + 5) = 73
+    assert float(glitching.sum()) / 10.0 / starts == pytest.approx(5.0, abs=0.6)
+
+
+def test_the_white_noise_of_a_receiver_is_the_same_with_a_wander_added() -> None:
+    plain, wandering = (GpsReceiver(HOME, np.random.default_rng(7), 4000, 0.3, 0.05) for _ in range(2))
+    wandering.wander = 2.0
+    apart = np.array([b[1] - a[1] for a, b in zip(fixes(plain, 600.0), fixes(wandering, 600.0), strict=True)])
+    assert float(np.abs(np.diff(apart, axis=0)).max()) < 1.0  # slow
+    assert 0.8 < float(apart[:, :2].std()) < 3.5
+
+
+SOLIDS = World(
+    boxes=np.array([[3.0, -1.0, -4.0, 5.0, 2.0, 0.0], [-6.0, -6.0, -1.0, -5.0, -5.0, 0.0]]),
+    spheres=np.array([[0.0, 5.0, -2.0, 1.5]]),
+    cylinders=np.array([[-4.0, 1.0, 0.7, -6.0, -1.0]]),
+)
+
+
+def distance_to_solids(p: FloatArray) -> float:
+    """Signed distance from a point to the nearest of SOLIDS, by their definitions."""
+    out = [float(np.linalg.norm(p - s[:3])) - s[3] for s in SOLIDS.spheres]
+    for b in SOLIDS.boxes:
+        q = np.maximum(b[:3] - p, p - b[3:])
+        out.append(float(np.linalg.norm(np.maximum(q, 0.0)) + min(q.max(), 0.0)))
+    for c in SOLIDS.cylinders:
+        side, end = math.hypot(p[0] - c[0], p[1] - c[1]) - c[2], max(c[3] - p[2], p[2] - c[4])
+        out.append(math.hypot(max(side, 0.0), max(end, 0.0)) + min(max(side, end), 0.0))
+    return min(out)
+
+
+def test_a_ray_ends_where_walking_by_the_distance_to_the_solids_ends() -> None:
+    rng = np.random.default_rng(8)
+    origin = np.array([0.0, 0.0, -2.0])
+    directions = rng.standard_normal((400, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    cast = SOLIDS.cast(origin, directions, 12.0)
+    hits = 0
+    for direction, t in zip(directions, cast, strict=True):
+        walked = 0.0
+        while walked < 12.0 and (step := distance_to_solids(origin + walked * direction)) > 1e-4:
+            walked += step
+        if walked >= 12.0:
+            assert math.isinf(t)
+        else:
+            hits += 1
+            assert t == pytest.approx(walked, abs=5e-3)
+    assert 40 < hits < 390
+
+
+def test_a_wall_is_met_between_its_ends_and_edges_only_and_within_a_solid_the_distance_is_zero() -> None:
+    wall = World(walls=np.array([[4.0, -1.0, 4.0, 1.0, -3.0, 0.0]]))
+    ahead, right, up = np.array([[1.0, 0, 0]]), np.array([[0.8, 0.6, 0]]), np.array([[0.8, 0, -0.6]])
+    start = np.array([0.0, 0.0, -1.0])
+    assert wall.cast(start, ahead, 10.0)[0] == pytest.approx(4.0)
+    assert math.isinf(wall.cast(start, right, 10.0)[0])
+    assert math.isinf(wall.cast(start, up, 10.0)[0])
+    assert math.isinf(wall.cast(start, ahead, 3.0)[0])
+    assert SOLIDS.cast(np.array([4.0, 0.0, -2.0]), ahead, 9.0)[0] == 0.0
+
+
+def test_a_world_that_is_no_world_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"boxes of shape \(1, 5\)"):
+        World(boxes=np.zeros((1, 5)))
+    with pytest.raises(ValueError, match="finite"):
+        World(spheres=np.full((1, 4), np.nan))
+
+
+def test_the_obstacle_sensor_sees_ahead_what_is_ahead_whichever_way_it_looks() -> None:
+    for yaw_deg, sector in ((0.0, 0), (90.0, 54), (-90.0, 18)):  # the box is north; clockwise from the nose
+        half = math.radians(yaw_deg) / 2.0
+        sensor = ObstacleSensor(
+            World(boxes=np.array([[3.0, -0.1, -9.0, 4.0, 0.1, 0.0]])),
+            np.random.default_rng(9),
+            Channel(Sensor.OBSTACLE, FaultSchedule(), np.random.default_rng(0)),
+        )
+        scan = sensor.measure(0, np.array([0.0, 0.0, -2.0]), np.array([math.cos(half), 0.0, 0.0, math.sin(half)]))
+        assert scan is not None
+        level = scan.distance[:SECTORS]
+        assert level[sector] == pytest.approx(3.0, abs=0.15)
+        assert int(np.isfinite(level).sum()) == 1
+        assert scan.maximum == MAXIMUM
+
+
+def test_the_rangefinder_tells_the_height_longer_when_tilted_shorter_over_a_roof_and_nothing_out_of_reach() -> None:
+    def look(height: float, tilt_deg: float = 0.0, world: World | None = None, fault: str = "gps:off") -> float | None:
+        channel = Channel(Sensor.RANGE, FaultSchedule([parse_fault(fault)]), np.random.default_rng(0))
+        sensor = Rangefinder(world, 0.2, np.random.default_rng(10), channel)
+        half = math.radians(tilt_deg) / 2.0
+        q = np.array([math.cos(half), math.sin(half), 0.0, 0.0])
+        words = [sensor.measure(0, np.array([0.0, 0.0, 0.2 - height]), q) for _ in range(100)]
+        return None if words[0] is None else float(np.mean([w.distance for w in words if w is not None]))
+
+    assert look(3.0) == pytest.approx(3.0, abs=0.01)
+    assert look(3.0, 30.0) == pytest.approx(3.0 / math.cos(math.radians(30.0)), abs=0.01)
+    assert look(5.0, world=World(boxes=np.array([[-1.0, -1.0, -1.8, 1.0, 1.0, 0.2]]))) == pytest.approx(3.0, abs=0.01)
+    assert math.isnan(look(25.0) or 0.0)
+    assert look(3.0, fault="range:off") is None
