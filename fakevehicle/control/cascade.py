@@ -3,7 +3,8 @@
 """How the loops hang together: position -> velocity -> attitude (250 Hz) -> body rates (1 kHz) -> mixer.
 
     v_sp = v_ff + P_p (p_sp - p)                         limited in speed
-    a_sp = FOPID-TID(v_sp, v; u_ff = a_ff)               limited in tilt, then by what the rotors can lift
+    u_ff = a_ff (1 + T s (1 + 1/LEAD))/(1 + T s/LEAD)    ahead by the T that attitude takes to follow
+    a_sp = FOPID-TID(v_sp, v; u_ff)                      limited in tilt, then by what the rotors can lift
     thrust direction -z_b = (a_sp - g e3)/|.|, yaw from the setpoint  =>  q_sp;  T = m (g e3 - a_sp) . z_b
     omega_sp = P_q * (tilt error, then yaw error) + yaw-rate feed-forward
     tau = J FOPID-TID(omega_sp, omega) + omega x J omega
@@ -35,11 +36,15 @@ NAVIGATION = 16
 FADE, RETURN = 1.5, 1.0
 """Time constant [s] and highest speed [m/s] at which a reset fades out of what the loops see."""
 
+LEAD = 4.0
+"""By how much a sudden change of the acceleration asked for may overshoot on its way to the attitude loop."""
+
 GAINS = np.dtype(
     [
         ("position_p", "f8", (3,)),
         ("attitude_p", "f8", (3,)),
         ("rate_max", "f8", (3,)),
+        ("lead", "f8"),  # T [s]
         ("speed_xy", "f8"),
         ("speed_up", "f8"),
         ("speed_down", "f8"),
@@ -53,6 +58,8 @@ LOOPS = np.dtype(
     [
         ("yaw", "f8"),  # the yaw that is held [rad]
         ("followed", "f8", (SETPOINT,)),
+        ("asked", "f8", (2,)),  # what the lead's low pass remembers of the acceleration asked for; NaN: nothing yet
+        ("ahead", "f8", (3,)),  # the acceleration asked for, with the lead [m/s^2]
         ("q_sp", "f8", (4,)),
         ("rate_sp", "f8", (3,)),
         ("thrust", "f8"),  # demanded [N]
@@ -84,7 +91,8 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     """
     g = body.gravity
     acc0, acc1, acc2 = 0.0, 0.0, 0.0
-    sp, shift = status.followed, status.shift
+    sp, shift, asked, ahead = status.followed, status.shift, status.asked, status.ahead
+    smooth = period / (period + gains.lead / LEAD)  # backward Euler: exactly T ahead of a ramp
     fade = period / FADE
     for i in range(7):
         lost = fade * shift[i]
@@ -102,6 +110,13 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
         else:
             sp[i], sp[3 + i] = math.nan, (0.0 if math.isnan(a) else math.nan)
         sp[6 + i] = 0.0 if math.isnan(a) else a
+        ahead[i] = sp[6 + i]
+        if i < 2:  # height is thrust's, which hardly lags
+            if math.isnan(asked[i]):
+                asked[i] = a
+            asked[i] += smooth * (a - asked[i])  # NaN when nothing is asked for: no jump when something is again
+            if not math.isnan(a):
+                ahead[i] += LEAD * (a - asked[i])
     speed = math.hypot(sp[3], sp[4])
     if speed > gains.speed_xy:  # NaN compares false
         sp[3] *= gains.speed_xy / speed
@@ -112,10 +127,10 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     for i in range(3):
         j = VELOCITY + i
         if math.isnan(sp[3 + i]):
-            a = sp[6 + i] + bank[j].integral + bank[j].kt * bank[j].t_out  # all of the trim, the tilt term's too
+            a = ahead[i] + bank[j].integral + bank[j].kt * bank[j].t_out  # all of the trim, the tilt term's too
         else:
             a = fopid_step(
-                bank, coefficients, states, j, sp[3 + i], nav[3 + i] - shift[3 + i], sp[6 + i], status.pushed_a[i]
+                bank, coefficients, states, j, sp[3 + i], nav[3 + i] - shift[3 + i], ahead[i], status.pushed_a[i]
             )
         if i == 0:
             acc0 = a

@@ -70,6 +70,18 @@ PAPER_GAINS: Mapping[str, float] = {
 velocity loops. Kept for comparison, not for flying in wind."""
 
 
+PRESETS: Mapping[str, Mapping[str, float]] = {
+    "default": {},
+    "paper": PAPER_GAINS,
+    "pid": {
+        f"FT_{loop.name}_{term}": value
+        for loop in FOPID_LOOPS
+        for term, value in (("KT", 0.0), ("LAMBDA", 1.0), ("MU", 1.0))
+    },
+}
+"""Sets of the loops' gains by name, as overrides of the defaults."""
+
+
 def _loop_parameters(loop: LoopDefaults) -> tuple[Parameter, ...]:
     name, what, unit = f"FT_{loop.name}_", loop.what, loop.unit
     return (
@@ -89,6 +101,9 @@ def _loop_parameters(loop: LoopDefaults) -> tuple[Parameter, ...]:
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter("MPC_XY_P", 1.5, 0, 5, "1/s", "horizontal position gain"),
     Parameter("MPC_Z_P", 1.2, 0, 5, "1/s", "vertical position gain"),
+    Parameter(
+        "MPC_ACC_LEAD", 0.0, 0, 0.5, "s", "how far ahead acceleration asked for sideways is looked: attitude's lag"
+    ),
     Parameter("MPC_XY_VEL_MAX", 12.0, 0.5, 20, "m/s", "highest horizontal speed the position loop asks for"),
     Parameter("MPC_Z_VEL_MAX_UP", 3.0, 0.5, 8, "m/s", "highest climb rate the position loop asks for"),
     Parameter("MPC_Z_VEL_MAX_DN", 1.5, 0.5, 4, "m/s", "highest sink rate the position loop asks for"),
@@ -119,7 +134,7 @@ class ControlTables:
         self.gains = np.zeros(1, GAINS)
         self.status = np.zeros(1, LOOPS)
         self.status["q_sp"][0, 0] = 1.0
-        self.status["followed"] = np.nan
+        self.status["followed"] = self.status["asked"] = np.nan
         self._full = 4 * airframe.thrust_coefficient * airframe.max_rotor_speed**2
         self._orders: dict[str, tuple[float, float, float]] = {}
         self.update(parameters, at_rest=True)
@@ -131,6 +146,7 @@ class ControlTables:
         g["position_p"] = [p["MPC_XY_P"], p["MPC_XY_P"], p["MPC_Z_P"]]
         g["attitude_p"] = [p["MC_ROLL_P"], p["MC_PITCH_P"], p["MC_YAW_P"]]
         g["rate_max"] = np.radians([p["MC_ROLLRATE_MAX"], p["MC_PITCHRATE_MAX"], p["MC_YAWRATE_MAX"]])
+        g["lead"] = p["MPC_ACC_LEAD"]
         g["speed_xy"], g["speed_up"] = p["MPC_XY_VEL_MAX"], p["MPC_Z_VEL_MAX_UP"]
         g["speed_down"] = p["MPC_Z_VEL_MAX_DN"]
         g["tan_tilt"] = math.tan(math.radians(p["MPC_TILTMAX_AIR"]))
@@ -165,13 +181,14 @@ class ControlTables:
         s = self.status[0]
         s["yaw"], s["thrust"], s["saturated"] = yaw, 0.0, 0.0
         s["pushed_a"], s["pushed_m"], s["rate_sp"] = 0.0, 0.0, 0.0
-        s["followed"], s["shift"] = np.nan, 0.0
+        s["followed"], s["asked"], s["shift"] = np.nan, np.nan, 0.0
         s["q_sp"] = [math.cos(0.5 * yaw), 0.0, 0.0, math.sin(0.5 * yaw)]
 
     def rebase(self) -> None:
         """Forget the setpoints there were, keep the trim: for a change of mode."""
         for i in range(VELOCITY, VELOCITY + 3):
             self.bank.rebase(i)
+        self.status[0]["asked"] = np.nan
         self.status[0]["shift"][:3] = 0.0  # new setpoints begin at the estimate as it is
 
     def follow(self, resets: Resets) -> None:

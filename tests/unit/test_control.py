@@ -111,6 +111,25 @@ def test_an_acceleration_alone_keeps_all_of_the_trim_the_velocity_loop_had_found
         assert tables.status[0]["thrust"] == pytest.approx(held, rel=1e-3)
 
 
+def test_an_acceleration_that_grows_is_looked_ahead_of_by_the_lead_and_one_that_comes_anew_makes_no_jump() -> None:
+    tables = ControlTables(X500, ParameterSet(PARAMETERS, PLAIN | {"MPC_ACC_LEAD": 0.08}))
+    tables.rest(0.0)
+    setpoint, nav = np.full(SETPOINT, np.nan), np.zeros(NAVIGATION)
+    nav[6], body, bank = 1.0, X500.record()[0], tables.bank
+    seen = []
+    for k in range(200):
+        wanted = 1.0 + 2.0 * 0.004 * k  # 2 m/s^3, to the north
+        setpoint[3:6], setpoint[6:9] = 0.0, [wanted, 0.0, 0.0]
+        outer_loops(
+            setpoint, nav, tables.gains[0], tables.status[0], body, bank.loops, bank.coefficients, bank.states, 0.004
+        )
+        ahead = tables.status[0]["ahead"]
+        seen.append(float(ahead[0]) - wanted)
+        assert list(ahead[1:]) == [0.0, 0.0]
+    assert seen[0] == 0.0
+    assert seen[-1] == pytest.approx(2.0 * 0.08)
+
+
 def test_orders_wait_for_the_motors_to_rest() -> None:
     parameters = ParameterSet(PARAMETERS)
     tables = ControlTables(X500, parameters)
