@@ -48,8 +48,11 @@ DRAG_US = 200_000
 """Spacing of airspeeds [us]."""
 DIFFERENCE_SHARE = 0.01
 """Of a new difference between GPS's height and the filter's in their mean."""
-FIELD_TOLERANCE = 0.2
-"""A field whose strength is wrong by this share is disturbed and never moves the yaw by a reset."""
+FIELD_TOLERANCE, FIELD_SHARE = 0.1, 0.05
+"""A field whose mean strength or dip is wrong by this share of the whole is disturbed and never turns the vehicle by a
+reset; share of a new sample in the mean."""
+HANDOVER_US = 300_000
+"""GPS's height takes over when the barometer has not been accepted for this long [us]."""
 _HORIZONTAL, _DOWN, _VELOCITY, _YAW = (6, 7), (8,), (3, 4, 5), (2,)
 
 
@@ -115,6 +118,7 @@ class Estimator:
         self._zero_samples, self._zero_us = 1, 0
         self._difference = 0.0  # GPS's z less the filter's
         self._differences = 0
+        self._dip, self._strength = float(field_n[2]), math.sqrt(float(field_n @ field_n))  # running means [gauss]
         self._wind = WindWatch()
         self._drag_us = 0
         self._delay_us = config.gps_delay_us
@@ -217,7 +221,10 @@ class Estimator:
             lambda: measurements.gps_position(nominal, place, config.gps_position), _HORIZONTAL, now_us, returns
         )
         taken = fast + near
-        if self._aids["baro"].fresh(now_us):
+        aid = self._aids["gps_position"]
+        self._settled = self._settled or (aid.fresh(now_us) and now_us - aid.since_us >= config.gps_settling_us)
+        heard = self._aids["baro"].accepted_us
+        if heard is not None and now_us - heard < HANDOVER_US:
             self._differences += 1
             share = max(DIFFERENCE_SHARE, 1.0 / self._differences)
             self._difference += share * (float(place[2] - nominal[2]) - self._difference)
@@ -239,9 +246,16 @@ class Estimator:
         if self._dead("mag", sample.field_b.tobytes(), now_us):
             return []
         assert self.filter is not None
-        nominal = self.filter.nominal
-        strength = math.sqrt(float(sample.field_b @ sample.field_b) / float(self._field_n @ self._field_n))
-        clean = abs(strength - 1.0) < FIELD_TOLERANCE
+        nominal, field_b = self.filter.nominal, sample.field_b
+        w, x, y, z = nominal[6:10].tolist()
+        dip = (
+            2.0 * ((x * z - w * y) * field_b[0] + (y * z + w * x) * field_b[1]) + (1 - 2 * (x * x + y * y)) * field_b[2]
+        )
+        self._dip += FIELD_SHARE * (float(dip) - self._dip)
+        self._strength += FIELD_SHARE * (math.sqrt(float(field_b @ field_b)) - self._strength)
+        whole = math.sqrt(float(self._field_n @ self._field_n))
+        wrong = max(abs(self._strength - whole), abs(self._dip - float(self._field_n[2])))
+        clean = wrong < FIELD_TOLERANCE * whole
         return self._weigh(
             lambda: measurements.magnetometer(nominal, sample.field_b, self._field_n, self._config.mag),
             _YAW if clean else (),
@@ -340,14 +354,13 @@ class Estimator:
             return Validity(False, False, False, False)
         P, aids = self.filter.P, self._aids
         gps, since = aids["gps_position"].fresh(now_us), now_us - aids["gps_position"].since_us
-        if gps and not self._settled:
-            self._settled = since >= self._config.gps_settling_us
+        settled = since >= (RESETTLE_US if self._settled else self._config.gps_settling_us)
         height = aids["baro"].fresh(now_us) or aids["gps_height"].fresh(now_us)
         imu = not self.flying or aids["imu"].accepted_us is None or now_us - aids["imu"].accepted_us < 2 * DRAG_US
         return Validity(
             attitude=bool(imu and max(P[0, 0], P[1, 1], P[2, 2]) < 0.3**2),
             velocity=bool(aids["gps_velocity"].fresh(now_us) and max(P[3, 3], P[4, 4], P[5, 5]) < 1.0),
-            position=bool(self._settled and gps and since >= RESETTLE_US and max(P[6, 6], P[7, 7]) < 3.0**2),
+            position=bool(gps and settled and max(P[6, 6], P[7, 7]) < 3.0**2),
             altitude=bool(height and P[8, 8] + self._height_variance(now_us) < 3.0**2),
         )
 
