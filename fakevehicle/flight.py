@@ -47,8 +47,8 @@ from fakevehicle.vocabulary import (
     Truth,
 )
 
-BATTERY_US = 20_000
-"""The battery is drawn from this often."""
+BATTERY_US = 100_000
+"""The battery is drawn from this often, and motors break then."""
 BLOCK = 256
 """Ticks whose random draws are made at once."""
 
@@ -126,10 +126,27 @@ class FlightStack:
         self._estimator = Estimator(estimator_config(p), field, GRAVITY, self.TICK_US)
         self._turbulent = False
         self._resets = self._estimator.resets
-        self._speed_max = airframe.max_rotor_speed
         self._battery = Battery(airframe.battery)
         self._read_own_parameters()
         self._setpoint: FloatArray = self._world["setpoint"][0]
+        self._thrust, self._effort = self._world["thrust"], self._world["effort"]
+        control = self._control
+        self._tables = (  # what `tick.advance` works on, all of it for the vehicle's whole life
+            self._noise,
+            self._gust_noise,
+            self._gusts,
+            self._world,
+            self._body,
+            control.gains,
+            control.status,
+            control.bank.loops,
+            control.bank.coefficients,
+            control.bank.states,
+            self._imu,
+            self._estimator.predictor,
+            self._estimator.imu,
+            self._estimator.ring,
+        )
         self._setpoint_from: Setpoint | None = None
         self._motors = tick.RESTING
         self._touches = True
@@ -154,7 +171,7 @@ class FlightStack:
         motors = tick.RESTING if not armed else tick.IDLE if setpoint is None else tick.FLYING
         if motors == tick.FLYING:
             if setpoint is not self._setpoint_from and setpoint is not None:
-                self._take(setpoint)
+                self._follow(setpoint)
             if self._motors != tick.FLYING:
                 self._control.rest(_yaw(self._estimator.out[6:10]))
         row = self._ticks % BLOCK
@@ -162,25 +179,8 @@ class FlightStack:
             self._rng.standard_normal(out=self._noise)
             if self._turbulent:
                 self._gust_rng.standard_normal(out=self._gust_noise)
-        control, estimator = self._control, self._estimator
-        flags = tick.advance(
-            motors,
-            now_us * 1e-6,
-            self._noise[row],
-            self._gust_noise[row],
-            self._gusts,
-            self._world,
-            self._body,
-            control.gains,
-            control.status,
-            control.bank.loops,
-            control.bank.coefficients,
-            control.bank.states,
-            self._imu,
-            estimator.predictor,
-            estimator.imu,
-            estimator.ring,
-        )
+        estimator = self._estimator
+        flags = tick.advance(motors, now_us * 1e-6, row, *self._tables)
         if flags & tick.DIVERGED:
             raise DivergedError(now_us, "position, velocity, attitude or body rate is not a finite number")
         self._touches = flags != 0
@@ -191,21 +191,22 @@ class FlightStack:
         estimator.step(now_us)
         if estimator.resets is not self._resets:
             self._resets = estimator.resets
-            control.follow(self._resets)
+            self._control.follow(self._resets)
         if now_us % BATTERY_US == 0:
             self._drain(now_us)
 
     def _drain(self, now_us: int) -> None:
         """Draw what the motors take, let them feel the voltage, and break those whose time has come."""
         battery, body = self._battery, self._body[0]
-        a, b, c, d = self._x[13:17].tolist()
-        battery.draw((a**3 + b**3 + c**3 + d**3) / (4.0 * self._speed_max**3), BATTERY_US * 1e-6)
-        body["sag"] = sag = battery.sag if self._sagging else 1.0
-        body["boost"] = 1.0 / sag if self._boosting else 1.0
-        body["effect"] = 1.0
-        for fault in self._faults.active(Sensor.MOTOR, now_us):
-            left = fault.magnitude[0] if fault.magnitude and fault.kind is not FaultKind.OFF else 0.0
-            body["effect"][fault.index % 4] = min(max(left, 0.0), 1.0)
+        battery.draw(float(self._effort[0]), BATTERY_US * 1e-6)
+        if self._sagging:
+            body["sag"] = sag = battery.sag
+            body["boost"] = 1.0 / sag if self._boosting else 1.0
+        if self._faults.concerns(Sensor.MOTOR):
+            body["effect"] = 1.0
+            for fault in self._faults.active(Sensor.MOTOR, now_us):
+                left = fault.magnitude[0] if fault.magnitude and fault.kind is not FaultKind.OFF else 0.0
+                body["effect"][fault.index % 4] = min(max(left, 0.0), 1.0)
 
     def inject(self, fault: Fault) -> None:
         """Add a fault to the schedule."""
@@ -231,24 +232,24 @@ class FlightStack:
     @property
     def glance(self) -> Glance:
         """The estimate in a few numbers."""
-        e = self.estimate
-        x, y, z = e.position_n.tolist()
-        vx, vy, vz = e.velocity_n.tolist()
+        estimator = self._estimator
+        valid = estimator.validity(self._now_us)
+        x, y, z, vx, vy, vz, qw, qx, qy, qz, *_ = estimator.out.tolist()
         return Glance(
-            now_us=self._now_us,
-            x=x,
-            y=y,
-            z=z,
-            vx=vx,
-            vy=vy,
-            vz=vz,
-            yaw=_yaw(e.q_nb),
-            thrust=self._thrust(),
-            attitude_valid=e.attitude_valid,
-            velocity_valid=e.velocity_valid,
-            position_valid=e.position_valid,
-            altitude_valid=e.altitude_valid,
-            resets=e.resets.count,
+            self._now_us,
+            x,
+            y,
+            z,
+            vx,
+            vy,
+            vz,
+            math.atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz)),
+            float(self._thrust[0]),
+            valid.attitude,
+            valid.velocity,
+            valid.position,
+            valid.altitude,
+            estimator.resets.count,
         )
 
     @property
@@ -314,7 +315,7 @@ class FlightStack:
             setpoint=Setpoint(f[0:3], f[3:6], f[6:9], float(f[9]), float(f[10])),
             attitude_setpoint_q_nb=s["q_sp"].copy(),
             rate_setpoint_b=s["rate_sp"].copy(),
-            thrust=self._thrust(),
+            thrust=float(self._thrust[0]),
             motor=speed / speed_max,
             saturated=bool(s["saturated"] != 0.0),
         )
@@ -324,14 +325,7 @@ class FlightStack:
         """The estimator itself, for those who study it."""
         return self._estimator
 
-    def _thrust(self) -> float:
-        """Collective the loops ask for, or the turning motors give, 0..1 of the maximum."""
-        s = self._control.status[0]
-        if self._motors == tick.FLYING:
-            return float(s["thrust"] / self._control.gains[0]["thrust_full"])
-        return float(np.sum(s["command"] ** 2)) / (4.0 * float(self._body[0]["speed_max"]) ** 2)
-
-    def _take(self, setpoint: Setpoint) -> None:
+    def _follow(self, setpoint: Setpoint) -> None:
         s = self._setpoint
         s[0:3], s[3:6], s[6:9] = setpoint.position_n, setpoint.velocity_n, setpoint.acceleration_n
         s[9], s[10] = setpoint.yaw, setpoint.yaw_rate
@@ -350,6 +344,8 @@ class FlightStack:
         suite.configure_imu(self._imu, self._parameters, tick.SUBSTEPS, self.TICK_US * 1e-6)
         p = self._parameters
         self._sagging, self._boosting = bool(p["SIM_BAT_SAG"]), bool(p["MC_BAT_SCALE_EN"])
+        if not self._sagging:
+            self._body["sag"], self._body["boost"] = 1.0, 1.0
         capacity = p["SIM_BAT_CAPACITY"] or 1000.0 * self._battery.pack.capacity
         self._battery.capacity = 3.6 * float(capacity)
         strength = float(p["SIM_WIND_GUST"])

@@ -35,6 +35,8 @@ WORLD = np.dtype(
         ("velocity_before", "f8", (3,)),  # at the beginning of the tick, in n [m/s]
         ("anchor", "f8", (4, 3)),  # where each foot holds the ground
         ("setpoint", "f8", (SETPOINT,)),
+        ("thrust", "f8"),  # collective the loops ask for, or the turning motors give, 0..1 of the maximum
+        ("effort", "f8"),  # mean of the rotors' (speed / full speed)^3
         ("steady", "f8", (3,)),  # wind without gusts [m/s]
         ("wind", "f8", (3,)),  # all of it
         ("along", "f8", (2,)),  # north and east of the mean wind's direction
@@ -49,8 +51,9 @@ WORLD = np.dtype(
 def advance(
     motors,
     now,
-    noise,
-    gust_noise,
+    row,
+    noise_,
+    gust_noise_,
     gusts,
     world_,
     body_,
@@ -70,7 +73,7 @@ def advance(
     ----------
     motors : RESTING, IDLE or FLYING.
     now : the tick's end [s].
-    noise : (DRAWS,) and gust_noise : (TURBULENCE,) standard normal draws.
+    noise_ : (n, DRAWS) and gust_noise_ : (n, TURBULENCE) standard normal draws, and which row of them is this tick's.
     gusts : (n, 6), see `wind.gust_table`.
     world_, body_, gains_, status_, imu_, predictor_ : (1,) of `WORLD`, `airframe.BODY`, `cascade.GAINS`,
         `cascade.LOOPS`, `imu.IMU`, `predictor.PREDICTOR`.
@@ -82,7 +85,7 @@ def advance(
     TOUCHES when a foot touches the ground, plus DIVERGED when the state is no longer finite.
     """
     world, body, gains, status, imu, predictor = world_[0], body_[0], gains_[0], status_[0], imu_[0], predictor_[0]
-    x, work, anchor = world.x, world.work, world.anchor
+    x, work, anchor, noise = world.x, world.work, world.anchor, noise_[row]
     bias = predictor.nominal[10:13]
     if motors == FLYING:
         outer_loops(world.setpoint, predictor.out, gains, status, body, bank, coefficients, states, SUBSTEPS * DT)
@@ -113,7 +116,7 @@ def advance(
             touches = settle(x, anchor, body)
         integrate_imu(before, x, body.gravity, DT, imu, noise, 6 * k)
     walk_biases(imu, noise, 6 * SUBSTEPS)
-    blow(world, body, gusts, gust_noise, now)
+    blow(world, body, gusts, gust_noise_[row], now)
     rates, forces = imu.gyro_sum, imu.accel_sum
     share = 1.0 / SUBSTEPS
     advance_output(
@@ -129,8 +132,21 @@ def advance(
         SUBSTEPS * DT,
         body.gravity,
     )
+    told(motors, world, body, gains, status)
     flags = TOUCHES if touches else 0
     return flags if math.isfinite(x[0] + x[3] + x[6] + x[10]) else flags + DIVERGED
+
+
+@kernel
+def told(motors, world, body, gains, status):
+    """What others want to know of the motors: `world.thrust` and `world.effort`."""
+    squares, cubes = 0.0, 0.0
+    for i in range(4):
+        asked, turns = status.command[i] / body.speed_max, world.x[13 + i] / body.speed_max
+        squares += asked * asked
+        cubes += turns * turns * turns
+    world.thrust = status.thrust / gains.thrust_full if motors == FLYING else 0.25 * squares
+    world.effort = 0.25 * cubes
 
 
 @kernel
