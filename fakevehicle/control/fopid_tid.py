@@ -5,8 +5,9 @@
     u = u_ff + Kp (b r - y) + Kt D^(-1/n) e + (Ki D^(-lambda) + Ki0 D^(-1)) e - Kd D^mu F(s) y,     e = r - y
 
 Special cases: Kt = 0 is the paper's FOPID (eq. 42); Kp = 0, lambda = mu = 1 is Lurie's tilt-integral-derivative (US
-5,371,670); Kt = 0, lambda = mu = 1 is PID. The derivative acts on the measurement only (c = 0) and its coefficients
-never change in flight. The paper's Algorithm 1 adds lambda + mu to u, which has no dimension to stand in: not done.
+5,371,670); Kt = 0, lambda = mu = 1 is PID, to the rounding, since orders of one have no fractional operator in them.
+The derivative acts on the measurement only (c = 0) and its coefficients never change in flight. The paper's Algorithm 1
+adds lambda + mu to u, which has no dimension to stand in: not done.
 
 D^(-lambda) is s^(1 - lambda) followed by a trapezoidal 1/s, so that the last thing in the chain is an integrator: the
 one a change of gains feeds. It holds Ki times the integral, so that a change of Ki does not bump the output.
@@ -63,6 +64,7 @@ LOOP = np.dtype(
         ("t_out", "f8"),  # D^(-1/n) e_c, also while kt is 0: its memory is true whenever kt becomes something
         ("d_out", "f8"),  # -D^mu F y
         ("own", "f8"),  # u - u_ff of the last call
+        ("whole", "f8"),  # w of F(s) where mu = 1, else 0: s F(s) = w (1 - F(s)), exactly
         ("primed", "f8"),  # 0 until the derivative has seen its first sample
     ]
 )
@@ -115,7 +117,10 @@ def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, push
                 rest = out
         smooth = loop.f_b * (measured + loop.f_x) - loop.f_a * loop.f_y
         loop.f_x, loop.f_y = measured, smooth
-        loop.d_out = run_sections(coefficients, states, 3 * i + DERIVATIVE, loop.n_derivative, -smooth)
+        if loop.whole > 0.0:
+            loop.d_out = loop.whole * (smooth - measured)
+        else:
+            loop.d_out = run_sections(coefficients, states, 3 * i + DERIVATIVE, loop.n_derivative, -smooth)
     loop.own = loop.kp * (loop.b * setpoint - measured) + loop.kt * loop.t_out + loop.integral + loop.kd * loop.d_out
     return forward + loop.own
 
@@ -187,13 +192,14 @@ class LoopBank:
         chains = (
             (TILT, "n_tilt", -1.0 / tilt_n),
             (INTEGRAL, "n_integral", 1.0 - lam),
-            (DERIVATIVE, "n_derivative", mu),
+            (DERIVATIVE, "n_derivative", mu if mu < 1.0 else 0.0),
         )
         for row, name, alpha in chains:
             chain = sections(alpha, band[0], band[1], period)
             loop[name] = len(chain)
             self.coefficients[3 * i + row, : len(chain)] = chain
         c = 2.0 / period
+        loop["whole"] = derivative_cutoff if mu == 1.0 else 0.0
         loop["f_b"] = derivative_cutoff / (c + derivative_cutoff)
         loop["f_a"] = (derivative_cutoff - c) / (c + derivative_cutoff)
         self.clear(i)
