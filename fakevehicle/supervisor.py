@@ -91,7 +91,7 @@ class Supervisor:
         self._stream_lost = False  # a lost stream has led to this mode
         self._climb_us: int | None = None  # newest OFFBOARD setpoint that asked a standing vehicle to climb
         self._station_us: int | None = None  # newest heartbeat of a ground station
-        self._position_held = False  # position has been good since it was armed
+        self._position_us: int | None = None  # when position was good last, since it was armed
 
     @property
     def airborne(self) -> bool:
@@ -248,7 +248,8 @@ class Supervisor:
             self.notes.append((INFO, "Takeoff detected" if self.airborne else "Landing detected"))
         if self.home is not None and glance.position_valid:
             self.fence.step(now_us, np.array([glance.x, glance.y, glance.z]), self.home.position_n)
-        self._position_held = self.armed and (self._position_held or glance.position_valid)
+        if glance.position_valid:
+            self._position_us = now_us
         for tripped in self._failsafes.step(self._triggers(now_us, glance)):
             self._trip(tripped, now_us)
         if self.armed:
@@ -296,7 +297,8 @@ class Supervisor:
         blind = self.mode in _FLY_BLIND or (
             self.mode is Mode.OFFBOARD and self._asked is not None and not math.isnan(self._asked.thrust)
         )
-        if self._position_held and not glance.position_valid and not blind:
+        blind_s = 0.0 if self._position_us is None else (now_us - self._position_us) * 1e-6
+        if blind_s > self._parameters["COM_POS_FS_DELAY"] and not blind:
             triggers.append(Trigger.POSITION_LOST)
         if self.fence.breach is not None:
             triggers.append(Trigger.FENCE_BREACHED)
@@ -352,7 +354,7 @@ class Supervisor:
     def _arm(self, now_us: int) -> None:
         self.armed = True
         self._flown = False
-        self._position_held = False
+        self._position_us = None
         self._changed_us = now_us
         self.notes.append((INFO, "Armed by external command"))
         if self._glance is not None and not self._home_set:

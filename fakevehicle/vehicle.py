@@ -156,6 +156,7 @@ class Vehicle:
                 self._outbox,
                 self._places,
                 self._stack.inject,
+                self._stack.mend,
                 self._telemetry.home_position,
             ),
             NoShell(self._outbox, self._warn_rarely),

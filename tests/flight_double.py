@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from fakevehicle.battery import Battery, Pack
-from fakevehicle.faults import Fault
+from fakevehicle.faults import Fault, Sensor
 from fakevehicle.vocabulary import (
     BaroSample,
     ControlStatus,
@@ -47,6 +47,9 @@ class PointMass:
 
     def inject(self, fault: Fault) -> None:
         self.faults.append(fault)
+
+    def mend(self, sensor: Sensor, now_us: int) -> None:
+        self.faults = [fault for fault in self.faults if fault.sensor is not sensor]
 
     def reset_control(self) -> None:
         self.resets += 1

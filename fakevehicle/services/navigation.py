@@ -27,6 +27,7 @@ from fakevehicle.vocabulary import Geodetic
 from wire.dialect import mavlink
 
 _m = mavlink
+ROTORS = 4
 SLOWEST, FASTEST = 0.1, 30.0
 """Speeds that may be asked for [m/s]."""
 
@@ -39,7 +40,7 @@ class Navigation(Service):
     supervisor : flies.
     missions : knows the items as clients count them.
     outbox, places : as everywhere.
-    inject : gives a fault to the flight stack.
+    inject, mend : give a fault to the flight stack, and end those of a sensor.
     announce_home : builds HOME_POSITION.
     """
 
@@ -50,6 +51,7 @@ class Navigation(Service):
         outbox: Outbox,
         places: Places,
         inject: Callable[[Fault], None],
+        mend: Callable[[Sensor, int], None],
         announce_home: Builder,
     ) -> None:
         self._supervisor = supervisor
@@ -57,6 +59,7 @@ class Navigation(Service):
         self._outbox = outbox
         self._places = places
         self._inject = inject
+        self._mend = mend
         self._announce_home = announce_home
         self._breached = False
 
@@ -200,14 +203,19 @@ class Navigation(Service):
         return Verdict(_m.MAV_RESULT_UNSUPPORTED, "start the simulator anew instead")
 
     def _inject_failure(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        """FAILURE_UNIT, FAILURE_TYPE and instance: off or stuck from now on."""
+        """FAILURE_UNIT, FAILURE_TYPE and instance (0: the first): off, stuck or, with OK, well again from now on."""
         unit, kind, instance = (round(p) if math.isfinite(p) else -1 for p in command.params[:3])
         sensor = _UNITS.get(unit)
         if sensor is None:
             return denied(f"param1 is {unit}, a unit this vehicle cannot fail")
+        if not 0 <= instance <= ROTORS:
+            return denied(f"param3 is {instance}, expected 0..{ROTORS}")
+        if kind == _m.FAILURE_TYPE_OK:
+            self._mend(sensor, now_us)
+            return ACCEPTED
         fault = _FAILURES.get(kind)
         if fault is None:
-            return Verdict(_m.MAV_RESULT_UNSUPPORTED, f"param2 is {kind}, expected off (1) or stuck (2)")
+            return Verdict(_m.MAV_RESULT_UNSUPPORTED, f"param2 is {kind}, expected ok (0), off (1) or stuck (2)")
         self._inject(Fault(sensor=sensor, kind=fault, start_us=now_us, index=max(instance - 1, 0)))
         return ACCEPTED
 

@@ -550,7 +550,9 @@ def test_a_battery_warns_returns_and_lands(pilot: Pilot) -> None:
 def test_a_lost_position_lands_level(pilot: Pilot) -> None:
     airborne(pilot)
     point(pilot).position_known = False
-    pilot.run(0.1)
+    pilot.run(2.9)
+    assert pilot.mode == HOLD
+    pilot.run(0.2)
     assert pilot.mode == LAND
     assert "position lost" in pilot.texts()[-1]
     assert np.isnan(point(pilot).setpoint.position_n).all()
@@ -577,5 +579,8 @@ def test_a_pilot_who_asks_after_a_failsafe_is_obeyed_until_it_begins_again(pilot
 def test_a_failure_is_injected_by_command(pilot: Pilot) -> None:
     assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, m.FAILURE_TYPE_OFF, 0) == ACCEPTED
     assert [f.sensor.name for f in point(pilot).faults] == ["GPS"]
+    assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, m.FAILURE_TYPE_OK, 0) == ACCEPTED
+    assert point(pilot).faults == []
+    assert pilot.command(420, m.FAILURE_UNIT_SYSTEM_MOTOR, m.FAILURE_TYPE_OFF, 99) == DENIED
     assert pilot.command(420, 99, 1, 0) == DENIED
     assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, 7, 0) == UNSUPPORTED
