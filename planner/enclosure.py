@@ -9,7 +9,8 @@ include the goal's, there is no such curve, thick or thin, certified or not. The
 The planes are laid where solids make them tell most: at the faces of a box that just fits into each solid thickened by
 the radius. One layer of cells then closes a wall, however thin it is, and one cell of full height is enough for one of
 full height. Finer planes are laid between these in turn, as long as the reckoning takes at most MOST_DISTANCES and has
-at most MOST_CORNERS. "Keeps the radius" is meant as `certificate` needs it, a rounding margin included.
+at most MOST_CORNERS; in a large map, only around start and goal. "Keeps the radius" is meant as `certificate` needs it,
+a rounding margin included.
 """
 
 import itertools
@@ -23,6 +24,7 @@ from planner.bspline import FloatArray
 from planner.certificate import margin, needed
 from planner.distance import NOTCHED, Scene, nearest_exact, nearest_solid, solid_distance
 from planner.jit import kernel, leaf
+from planner.surroundings import surroundings
 from planner.worlds import Box, Cylinder, Obstacle, Sphere, World
 
 PITCHES = (
@@ -132,14 +134,17 @@ def apart(
     """
     solids = max(len(world.owners), 1)  # the voxels count as one
     most = min(MOST_DISTANCES // solids, MOST_CORNERS)
-    faces = [face_planes(world, radius, axis) for axis in range(3)]
-    if math.prod(len(plane) for plane in faces) > most:
-        faces = [plane[[0, -1]] for plane in faces]
+    near = surroundings(world.walls, np.array([start, goal]))
+    everywhere, nowhere = world.walls, np.zeros((2, 3))
+    for place in (everywhere, near, nowhere):  # whose faces count
+        faces = [face_planes(world, radius, axis, near, place) for axis in range(3)]
+        if math.prod(len(plane) for plane in faces) <= most:
+            break
     for upright, level in pitches:
-        pitched = list(zip(faces, (upright, upright, level), strict=True))
-        if math.prod(float(parts(plane, pitch).sum()) + 1.0 for plane, pitch in pitched) > most:
+        pitched = [(faces[axis], (upright, upright, level)[axis], near[:, axis]) for axis in range(3)]
+        if math.prod(float(parts(*of).sum()) + 1.0 for of in pitched) > most:
             return False
-        planes = [subdivided(plane, pitch) for plane, pitch in pitched]
+        planes = [subdivided(*of) for of in pitched]
         cells = np.empty((2, 3), dtype=np.int64)
         for axis, plane in enumerate(planes):
             ends = (start[axis], goal[axis])
@@ -149,15 +154,21 @@ def apart(
     return False
 
 
-def face_planes(world: World, radius: float, axis: int) -> FloatArray:
+def face_planes(world: World, radius: float, axis: int, near: FloatArray, place: FloatArray) -> FloatArray:
     """Where planes square to an axis tell most, ascending [m]: the map's walls and the solids' faces, moved by the
-    radius."""
+    radius; and the ends of what is near.
+
+    Parameters
+    ----------
+    near : (2, 3)     the question's surroundings, all of a small map [m].
+    place : (2, 3)    where solids' faces have to lie to count [m].
+    """
     room, unit = needed(world, radius), margin(world)
     low, high = float(world.walls[0, axis]) + room, float(world.walls[1, axis]) - room
-    found = [low, high]
+    found = near[:, axis].tolist()
     for obstacle in world.obstacles:
-        found += [v for v in core(obstacle, radius, axis) if low + unit < v < high - unit]
-    planes = np.sort(np.array(found))
+        found += [v for v in core(obstacle, radius, axis) if place[0, axis] < v < place[1, axis]]
+    planes = np.sort(np.array([low, high, *(v for v in found if low + unit < v < high - unit)]))
     apart_enough = np.concatenate([[True], np.diff(planes) > unit])
     return np.asarray(planes[apart_enough])
 
@@ -176,13 +187,16 @@ def core(obstacle: Obstacle, radius: float, axis: int) -> tuple[float, float]:
     return math.inf, -math.inf
 
 
-def parts(planes: FloatArray, pitch: float) -> FloatArray:
-    """Into how many parts each gap (m - 1,) between planes (m,) is cut for gaps of at most `pitch` [m]."""
-    return np.maximum(np.ceil(np.diff(planes) / pitch), 1.0)
+def parts(planes: FloatArray, pitch: float, near: FloatArray) -> FloatArray:
+    """Into how many parts each gap (m - 1,) between planes (m,) is cut: to at most `pitch` [m] in `near` (2,)."""
+    middles = (planes[1:] + planes[:-1]) / 2.0
+    counts: FloatArray = np.maximum(np.ceil(np.diff(planes) / pitch), 1.0)
+    counts[(middles < near[0]) | (middles > near[1])] = 1.0
+    return counts
 
 
-def subdivided(planes: FloatArray, pitch: float) -> FloatArray:
-    """The planes (m,) and as many between them as make gaps of at most `pitch` [m]."""
-    counts = parts(planes, pitch).astype(np.int64).tolist()
+def subdivided(planes: FloatArray, pitch: float, near: FloatArray) -> FloatArray:
+    """The planes (m,) and as many between them as make gaps of at most `pitch` [m] in what is near (2,)."""
+    counts = parts(planes, pitch, near).astype(np.int64).tolist()
     pieces = [np.linspace(a, b, n + 1)[:-1] for (a, b), n in zip(itertools.pairwise(planes), counts, strict=True)]
     return np.concatenate([*pieces, planes[-1:]])

@@ -163,9 +163,10 @@ def test_no_point_of_a_shut_cell_keeps_the_distance(seed: int) -> None:
 
 
 def test_planes_are_as_near_as_asked_and_keep_those_there_were() -> None:
-    planes = np.array([0.0, 0.3, 2.0, 2.05])
+    planes = np.array([-50.0, 0.0, 0.3, 2.0, 2.05, 90.0])
     for pitch in (math.inf, 1.0, 0.25):
-        found = subdivided(planes, pitch)
+        found = subdivided(planes, pitch, np.array([0.0, 2.05]))
         assert np.isin(planes, found).all()
-        assert np.diff(found).max() <= max(pitch, 0.0) + 1e-12 or pitch == math.inf
-        assert len(found) == parts(planes, pitch).sum() + 1
+        inside = found[(found >= 0.0) & (found <= 2.05)]
+        assert np.diff(inside).max() <= min(pitch, 1.7) + 1e-12
+        assert len(found) == len(inside) + 2 == parts(planes, pitch, np.array([0.0, 2.05])).sum() + 1

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from planner import Box, Cylinder, Limits, NoPathFound, Prism, Sphere, VoxelGrid, World, plan
-from planner.baselines.grid import MOST_CELLS as MOST_GRID_CELLS
 from planner.cost import MOST_CELLS, SplineCost, build_grid
 from planner.enclosure import PITCHES, apart
 from planner.guide import Guides, guide
@@ -103,16 +102,31 @@ def test_a_start_and_a_goal_that_share_a_lattice_point_and_do_not_see_each_other
 
 
 @pytest.mark.parametrize("method", ["haoaroa", "astar"])
-def test_being_shut_in_by_voxels_in_a_vast_map_is_told_in_bounded_memory(method: str) -> None:
+def test_being_shut_in_by_voxels_in_a_vast_map_is_proved_in_bounded_memory(method: str) -> None:
     hollow = np.ones((60, 60, 40), dtype=bool)
     hollow[5:55, 5:55] = False
     world = square(1e7, [VoxelGrid(hollow, (-2.0, 7.0, 0.0), 0.1)])
     tracemalloc.start()
-    with pytest.raises(NoPathFound):
+    with pytest.raises(NoPathFound, match="proved unreachable"):
         plan(world, START, GOAL, LIMITS, RADIUS, method=method)
-    assert not apart(world, START, GOAL, RADIUS, PITCHES)
-    assert tracemalloc.get_traced_memory()[1] < 200e6 + 10 * MOST_GRID_CELLS
+    assert tracemalloc.get_traced_memory()[1] < 300e6
     tracemalloc.stop()
+    hollow[:, 25:35] = False  # a door of a metre
+    assert not apart(square(1e7, [VoxelGrid(hollow, (-2.0, 7.0, 0.0), 0.1)]), START, GOAL, RADIUS, PITCHES)
+
+
+@pytest.mark.parametrize("door", [0.0, 0.3, 0.65])
+def test_a_room_among_a_thousand_others_in_a_large_map_is_proved_shut_if_its_door_is(door: float) -> None:
+    rooms = []
+    for x, y in np.ndindex(16, 16):
+        a, b = 40.0 * x - 302.0, 40.0 * y - 293.0  # one of them has the start in its middle
+        rooms += [Box((a, b, 0), (a + 0.2, b + 6, 4)), Box((a, b, 0), (a + 6, b + 0.2, 4))]
+        rooms += [Box((a, b + 5.8, 0), (a + 6, b + 6, 4))]
+        rooms += [Box((a + 5.8, b, 0), (a + 6, b + 3, 4)), Box((a + 5.8, b + 3 + door, 0), (a + 6, b + 6, 4))]
+    world = square(1e3, rooms)
+    start = np.array([-19.0, -10.0, 1.0])
+    assert world.distance(start)[0] == pytest.approx(2.8)
+    assert apart(world, start, np.array([19.0, 11.0, 1.5]), RADIUS, PITCHES) == (door < 2 * RADIUS)
 
 
 @pytest.mark.parametrize(
