@@ -120,6 +120,7 @@ class Ear:
         self.turns: list[Turn] = []
         self.story: list[str] = []
         self._mode: tuple[int, bool] | None = None
+        self._reached: int | None = None
 
     def hear(self, now_us: int, message: Any) -> None:
         kind = message.get_type()
@@ -133,9 +134,9 @@ class Ear:
                 self.story.append("armed" if mode[1] else "disarmed")
             self._mode = mode
         elif kind == "MISSION_ITEM_REACHED":
-            word = f"reached {message.seq}"
-            if self.story[-1:] != [word]:
-                self.story.append(word)
+            if message.seq != self._reached:  # it is repeated
+                self.story.append(f"reached {message.seq}")
+            self._reached = message.seq
         elif kind in _ANSWERS or (kind in ("PING", "TIMESYNC") and _is_reply(message)):
             self._answer(now_us, token(message), about(message))
         elif kind in ("HOME_POSITION", "MISSION_CURRENT") and self.turns and kind in self.turns[-1].said:
@@ -215,7 +216,8 @@ def token(message: Any) -> str | None:
         case "COMMAND_ACK":
             return f"ACK {message.command}={message.result}"
         case "STATUSTEXT":
-            return None if message.id and message.chunk_seq else f"TEXT {message.severity}"
+            progress = message.severity >= mavlink.MAV_SEVERITY_INFO
+            return None if progress or (message.id and message.chunk_seq) else f"TEXT {message.severity}"
         case "MISSION_ACK":
             return f"MISSION_ACK {message.type}"
         case "MISSION_COUNT":

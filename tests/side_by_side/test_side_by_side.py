@@ -4,7 +4,9 @@ docs/side_by_side.md has one table a recording, and a row a difference: what was
 this one answers, and why. Both directions are checked: no difference without a row, no row without a difference.
 """
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from functools import cache
 from pathlib import Path
@@ -12,8 +14,9 @@ from pathlib import Path
 import pytest
 from recorded_talk import Talk, Turn, play, recorded
 
-from fakevehicle.config import LinkConfig, VehicleConfig
+from fakevehicle.config import Autopilot, LinkConfig, VehicleConfig
 from fakevehicle.vehicle import Vehicle
+from fakevehicle.vocabulary import Geodetic
 
 ROOT = Path(__file__).parents[2]
 LINKS = (LinkConfig("onboard", "onboard"),)
@@ -67,20 +70,74 @@ def _fits(found: tuple[str, str, str], row: tuple[str, str, str]) -> bool:
     return all(fnmatchcase(f or "-", r) for f, r in zip(found, row, strict=True))
 
 
+@dataclass(frozen=True)
+class Recording:
+    """One recorded conversation: the autopilot, and how long after its boot the first packet came [s]."""
+
+    name: str
+    autopilot: Autopilot
+    boot_s: float
+    home: Geodetic
+
+    def __str__(self) -> str:
+        return self.name
+
+
+ZURICH = Geodetic(math.radians(47.397742), math.radians(8.545594), 488.0)
+CANBERRA = Geodetic(math.radians(-35.363261), math.radians(149.165230), 584.0)
+PX4 = Recording("px4-offboard.tlog", "px4", 0.0, ZURICH)
+SERVICES = Recording("arducopter-services.tlog", "ardupilot", 1.0, CANBERRA)
+CIRCLE = Recording("arducopter-guided-circle.tlog", "ardupilot", 0.0, CANBERRA)
+MAVPROXY = Recording("mavproxy-arducopter.tlog", "ardupilot", 0.4, CANBERRA)
+RECORDINGS = (PX4, CIRCLE, MAVPROXY, pytest.param(SERVICES, marks=pytest.mark.slow))
+AFTER_S = 30.0
+"""Played on after the client's last word, for what is still to happen."""
+
+
 @cache
-def px4() -> tuple[Talk, Talk]:
-    theirs = recorded(ROOT / "tests/data/px4-offboard.tlog.gz", 0)
-    theirs.turns = [turn for turn in theirs.turns if turn.at_us < 91_000_000]
-    theirs.story = theirs.story[: theirs.story.index("disarmed") + 1]
-    return theirs, play(theirs.turns, Vehicle(VehicleConfig(links=LINKS)), seconds=15.0)
+def talks(recording: Recording) -> tuple[Talk, Talk]:
+    """The real conversation, and ours."""
+    theirs = recorded(ROOT / f"tests/data/{recording.name}.gz", round(recording.boot_s * 1e6))
+    vehicle = Vehicle(VehicleConfig(autopilot=recording.autopilot, home=recording.home, links=LINKS))
+    return theirs, play(theirs.turns, vehicle, seconds=AFTER_S)
 
 
-def test_px4s_client_is_answered_as_px4_did_but_for_what_the_table_says() -> None:
-    found = differences(*px4())
-    table = rows("px4-offboard.tlog")
-    assert unexplained(found, table) == []
+@pytest.mark.parametrize("recording", RECORDINGS, ids=str)
+def test_a_recorded_client_is_answered_as_it_was_but_for_what_the_table_says(recording: Recording) -> None:
+    assert unexplained(differences(*talks(recording)), rows(recording.name)) == []
 
 
 @pytest.mark.slow
-def test_the_table_claims_no_difference_to_px4_that_is_not_there() -> None:
-    assert unused(differences(*px4()), rows("px4-offboard.tlog")) == []
+@pytest.mark.parametrize("recording", RECORDINGS, ids=str)
+def test_the_table_claims_no_difference_that_is_not_there(recording: Recording) -> None:
+    assert unused(differences(*talks(recording)), rows(recording.name)) == []
+
+
+def test_the_recordings_say_enough_to_be_compared() -> None:
+    """The comparison cannot pass for want of answers: the real autopilots gave this many."""
+    answered = {}
+    for recording in (PX4, SERVICES, CIRCLE, MAVPROXY):
+        turns = recorded(ROOT / f"tests/data/{recording.name}.gz", 0).turns
+        answered[recording.name] = sum(bool(turn.answers) for turn in turns)
+    assert answered == {
+        "px4-offboard.tlog": 53,
+        "arducopter-services.tlog": 162,
+        "arducopter-guided-circle.tlog": 14,
+        "mavproxy-arducopter.tlog": 26,
+    }
+
+
+def test_a_difference_in_an_answer_a_result_an_order_or_a_mode_is_found() -> None:
+    """The comparison itself, on a conversation that is not there."""
+
+    def talk(*answers: str, story: str = "mode 4") -> Talk:
+        return Talk([Turn(0, "LONG 400(1,0)", b"", list(answers))], [story])
+
+    real = talk("ACK 400=4", "TEXT 2")
+    assert differences(real, talk("ACK 400=4", "TEXT 2")) == []
+    assert differences(real, talk("TEXT 2", "ACK 400=4")) != []
+    assert differences(real, talk("ACK 400=0")) != []
+    assert differences(real, talk()) != []
+    assert differences(real, talk("ACK 400=4", "TEXT 2", story="mode 5")) != []
+    assert differences(talk("ACK 400=4"), talk("ACK 400=4", "TEXT 2")) == []  # put into words here
+    assert differences(talk("ACK 400=0"), talk("ACK 400=0", "TEXT 2")) != []
