@@ -152,6 +152,7 @@ class FlightStack:
         self._touches = True
         self._now_us = 0
         self._estimate: Estimate | None = None
+        self._glance: Glance | None = None
 
     def tick(self, now_us: int, setpoint: Setpoint | None, armed: bool) -> None:
         """Advance by `TICK_US` to `now_us`.
@@ -184,7 +185,8 @@ class FlightStack:
         if flags & tick.DIVERGED:
             raise DivergedError(now_us, "position, velocity, attitude or body rate is not a finite number")
         self._touches = flags != 0
-        self._motors, self._now_us, self._estimate = motors, now_us, None
+        self._motors, self._now_us = motors, now_us
+        self._estimate = self._glance = None
         self._ticks += 1
         self._sensors.sense(self._ticks, now_us, self._x, estimator.add)
         estimator.flying = motors == tick.FLYING
@@ -232,10 +234,12 @@ class FlightStack:
     @property
     def glance(self) -> Glance:
         """The estimate in a few numbers."""
+        if self._glance is not None:
+            return self._glance
         estimator = self._estimator
         valid = estimator.validity(self._now_us)
-        x, y, z, vx, vy, vz, qw, qx, qy, qz, *_ = estimator.out.tolist()
-        return Glance(
+        x, y, z, vx, vy, vz, qw, qx, qy, qz, p, q, r, *_ = estimator.out.tolist()
+        glance = self._glance = Glance(
             self._now_us,
             x,
             y,
@@ -250,7 +254,15 @@ class FlightStack:
             valid.position,
             valid.altitude,
             estimator.resets.count,
+            (qw, qx, qy, qz),
+            (p, q, r),
         )
+        return glance
+
+    @property
+    def origin(self) -> Geodetic | None:
+        """Where the estimator's frame begins; None until it knows."""
+        return self._estimator.origin
 
     @property
     def truth(self) -> Truth:
@@ -330,7 +342,6 @@ class FlightStack:
         s[0:3], s[3:6], s[6:9] = setpoint.position_n, setpoint.velocity_n, setpoint.acceleration_n
         s[9], s[10] = setpoint.yaw, setpoint.yaw_rate
         s[11:15], s[15:18], s[18] = setpoint.attitude_q_nb, setpoint.rate_b, setpoint.thrust
-        s[~np.isfinite(s)] = np.nan  # infinity asks for nothing
         self._setpoint_from = setpoint
 
     def _reload(self) -> None:

@@ -88,6 +88,9 @@ def advance(
     x, work, anchor, noise = world.x, world.work, world.anchor, noise_[row]
     bias = predictor.nominal[10:13]
     if motors == FLYING:
+        for i in range(SETPOINT):
+            if not math.isfinite(world.setpoint[i]):
+                world.setpoint[i] = math.nan  # infinity asks for nothing
         outer_loops(world.setpoint, predictor.out, gains, status, body, bank, coefficients, states, SUBSTEPS * DT)
     else:
         speed = body.speed_idle if motors == IDLE else 0.0

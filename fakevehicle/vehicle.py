@@ -38,6 +38,7 @@ from fakevehicle.services.missions import Missions
 from fakevehicle.services.navigation import Navigation
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
+from fakevehicle.services.sensing import Sensing
 from fakevehicle.services.service import Service, merged
 from fakevehicle.services.setpoints import Setpoints
 from fakevehicle.services.streams import Streams
@@ -145,6 +146,7 @@ class Vehicle:
         missions = Missions(store, self._supervisor, self._places, self._outbox, self._warn_rarely, flavour.habits)
         self._services: tuple[Service, ...] = (
             self._telemetry,
+            Sensing(self._stack),
             self._commands,
             self._setpoints,
             Parameters(named, self._outbox, READ_ONLY, self._warn, bytewise=flavour.bytewise),
@@ -318,7 +320,7 @@ class Vehicle:
         self._supervisor.notes.clear()
 
     def _origin(self) -> Geodetic | None:
-        return self._stack.estimate.origin
+        return self._stack.origin
 
     def _warn(self, text: str) -> None:
         self._outbox.text(mavlink.MAV_SEVERITY_WARNING, text)

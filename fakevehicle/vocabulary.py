@@ -5,6 +5,7 @@ Quaternions are wxyz and `q_nb` takes b-vectors to n. Angles in radians, everyth
 """
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,9 +64,11 @@ class Resets:
     delta_yaw: float = 0.0  # [rad]
 
 
-@dataclass(frozen=True, slots=True)
-class Glance:
-    """The estimate in a few numbers, cheap enough for every tick: what guards, guidance and most telemetry need."""
+class Glance(NamedTuple):
+    """The estimate in a few numbers, cheap enough for every tick: what guards, guidance and most telemetry need.
+
+    A tuple, which is made four times as fast as a frozen dataclass.
+    """
 
     now_us: int
     x: float  # [m] local NED
@@ -81,6 +84,8 @@ class Glance:
     position_valid: bool
     altitude_valid: bool
     resets: int  # `Resets.count`
+    q_nb: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)  # wxyz
+    omega_b: tuple[float, float, float] = (0.0, 0.0, 0.0)  # [rad/s], bias removed
 
 
 @dataclass(frozen=True, slots=True)

@@ -99,9 +99,13 @@ class PointMass:
         )
 
     @property
+    def origin(self) -> Geodetic | None:
+        return self.home if self.now_us >= READY_US else None
+
+    @property
     def glance(self) -> Glance:
         known = self.now_us >= READY_US
-        w, _, _, z = self.q.tolist()
+        w, x, y, z = self.q.tolist()
         return Glance(
             self.now_us,
             *self.p.tolist(),
@@ -113,6 +117,7 @@ class PointMass:
             known and self.position_known,
             known,
             0,
+            (w, x, y, z),
         )
 
     @property

@@ -33,6 +33,7 @@ CAPABILITIES = (
     | mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_FTP
     | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
+    | mavlink.MAV_PROTOCOL_CAPABILITY_SET_ATTITUDE_TARGET
     | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
     | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
@@ -156,41 +157,38 @@ class Telemetry(Service):
     # Where it is
 
     def attitude(self) -> Message | None:
-        e = self.estimate
-        if not e.attitude_valid:
+        g = self._stack.glance
+        if not g.attitude_valid:
             return None
-        w, x, y, z = e.q_nb.tolist()
+        w, x, y, z = g.q_nb
         roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
         pitch = math.asin(min(1.0, max(-1.0, 2.0 * (w * y - z * x))))
-        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-        return mavlink.MAVLink_attitude_message(self._boot_ms, roll, pitch, yaw, *e.omega_b.tolist())
+        return mavlink.MAVLink_attitude_message(self._boot_ms, roll, pitch, g.yaw, *g.omega_b)
 
     def attitude_quaternion(self) -> Message | None:
-        e = self.estimate
-        if not e.attitude_valid:
+        g = self._stack.glance
+        if not g.attitude_valid:
             return None
-        return mavlink.MAVLink_attitude_quaternion_message(
-            self._boot_ms, *e.q_nb.tolist(), *e.omega_b.tolist(), (0.0, 0.0, 0.0, 0.0)
-        )
+        return mavlink.MAVLink_attitude_quaternion_message(self._boot_ms, *g.q_nb, *g.omega_b, (0.0, 0.0, 0.0, 0.0))
 
     def local_position_ned(self) -> Message | None:
-        e = self.estimate
-        if not e.position_valid:
+        g = self._stack.glance
+        if not g.position_valid:
             return None
-        return mavlink.MAVLink_local_position_ned_message(self._boot_ms, *e.position_n.tolist(), *e.velocity_n.tolist())
+        return mavlink.MAVLink_local_position_ned_message(self._boot_ms, g.x, g.y, g.z, g.vx, g.vy, g.vz)
 
     def global_position_int(self) -> Message | None:
-        e, s = self.estimate, self._supervisor
-        if not e.position_valid:
+        g, s = self._stack.glance, self._supervisor
+        if not g.position_valid:
             return None
-        place = self._places.e7(e.position_n)
+        place = self._places.e7(np.array((g.x, g.y, g.z)))
         if place is None:
             return None
         ground = float(s.home.position_n[2]) if s.home is not None else 0.0
-        relative = round((ground - float(e.position_n[2])) * 1e3)
-        velocity = _centi(e.velocity_n)
+        relative = round((ground - g.z) * 1e3)
+        velocity = _clip16(g.vx * 100.0), _clip16(g.vy * 100.0), _clip16(g.vz * 100.0)
         return mavlink.MAVLink_global_position_int_message(
-            self._boot_ms, *place, relative, *velocity, _centidegrees(self._yaw())
+            self._boot_ms, *place, relative, *velocity, _centidegrees(g.yaw)
         )
 
     def odometry(self) -> Message | None:
@@ -235,23 +233,22 @@ class Telemetry(Service):
         return None if place is None else mavlink.MAVLink_gps_global_origin_message(*place, self.now_us)
 
     def altitude(self) -> Message | None:
-        e, s = self.estimate, self._supervisor
-        if not e.altitude_valid or e.origin is None:
+        g, s, origin = self._stack.glance, self._supervisor, self._stack.origin
+        if not g.altitude_valid or origin is None:
             return None
-        up = -float(e.position_n[2])
-        amsl = e.origin.altitude + up
+        up = -g.z
+        amsl = origin.altitude + up
         above_home = up + float(s.home.position_n[2]) if s.home is not None else NAN
         return mavlink.MAVLink_altitude_message(self.now_us, amsl, amsl, up, above_home, NAN, NAN)
 
     def vfr_hud(self) -> Message | None:
-        e = self.estimate
-        if not e.velocity_valid or e.origin is None:
+        g, origin = self._stack.glance, self._stack.origin
+        if not g.velocity_valid or origin is None:
             return None
-        vn, ve, vd = e.velocity_n.tolist()
-        heading = round(math.degrees(self._yaw())) % 360
-        throttle = round(100 * self._stack.control.thrust) if self._supervisor.armed else 0
-        amsl = e.origin.altitude - float(e.position_n[2])
-        return mavlink.MAVLink_vfr_hud_message(0.0, math.hypot(vn, ve), heading, throttle, amsl, -vd)
+        heading = round(math.degrees(g.yaw)) % 360
+        throttle = round(100 * g.thrust) if self._supervisor.armed else 0
+        amsl = origin.altitude - g.z
+        return mavlink.MAVLink_vfr_hud_message(0.0, math.hypot(g.vx, g.vy), heading, throttle, amsl, -g.vz)
 
     # What it senses
 
@@ -400,10 +397,6 @@ class Telemetry(Service):
     @property
     def _boot_ms(self) -> int:
         return self.now_us // 1000 & 0xFFFFFFFF
-
-    def _yaw(self) -> float:
-        w, x, y, z = self.estimate.q_nb.tolist()
-        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def _clip16(value: float) -> int:
