@@ -17,11 +17,13 @@ from rich.table import Table
 from fakevehicle.airframe import load_airframe
 from fakevehicle.config import MAX_LINKS, Autopilot, LinkConfig, VehicleConfig
 from fakevehicle.driver import DriverCounters, LinkPlan, Seat, open_links, px4_links, run
-from fakevehicle.errors import AirframeError, VehicleError
+from fakevehicle.errors import AirframeError, ScenarioError, VehicleError
+from fakevehicle.faults import parse_fault
 from fakevehicle.flavours import flavour_of
 from fakevehicle.geodesy import to_geodetic
 from fakevehicle.params import ParameterSet
 from fakevehicle.recordings import FlightLog, Folder
+from fakevehicle.scenario import Scenario, load_scenario
 from fakevehicle.vehicle import PARAMETERS, TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
 from logs.errors import RecordingError
@@ -64,6 +66,13 @@ def fly(
     ] = "0,0,0",
     seed: Annotated[int, typer.Option(help="Of every random number.")] = 1,
     param: Annotated[list[str] | None, typer.Option("--param", metavar="NAME=VALUE", help="Set a parameter.")] = None,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(metavar="SENSOR:KIND[=NUMBERS][@START[-END]]", help="Something fails, as in gps:off@20-40 (s)."),
+    ] = None,
+    scenario: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Faults, gusts and a world of obstacles, as YAML.")
+    ] = None,
     speed: Annotated[
         float, typer.Option(help="Simulated seconds in one second; a companion in real time needs 1.")
     ] = 1.0,
@@ -100,6 +109,8 @@ def fly(
         kind = _autopilot(autopilot)
         parameters = _parameters(param or [], kind)
         load_airframe(airframe)
+        events = Scenario() if scenario is None else load_scenario(scenario)
+        faults = (*events.faults, *(parse_fault(text) for text in fault or []))
         crew: list[_Plan] = []
         for i in range(count):
             plans = _plans(connect or [], instance + i, i)
@@ -114,12 +125,15 @@ def fly(
                 start_unix_us=round(started_s * 1e6),
                 instance=instance + i,
                 autopilot=kind,
+                faults=faults,
+                gusts=events.gusts,
+                world=events.world,
             )
             folder = record if record is None or count == 1 else record / str(config.system_id)
             crew.append(_Plan(config, parameters, plans, folder))
     except AirframeError as error:
         _fail(f"--airframe {airframe}: {error}", 2)
-    except (ValueError, EndpointError) as error:
+    except (ValueError, EndpointError, ScenarioError) as error:
         _fail(str(error), 2)
     links: list[dict[str, UdpLink]] = []
     try:

@@ -2,6 +2,7 @@
 
 VehicleError
 ├── AirframeError      an airframe file that cannot be used: file, field, found, expected
+├── ScenarioError      a scenario file that cannot be used: file, place
 └── DivergedError      the simulation left the range where its numbers mean anything
 """
 
@@ -24,6 +25,20 @@ class AirframeError(VehicleError):
         place = f"{file}: {field}" if field else file
         super().__init__(f"{place}: found {found}, expected {expected}")
         self.file, self.field, self.found, self.expected = file, field, found, expected
+
+
+class ScenarioError(VehicleError):
+    """A scenario file cannot be used.
+
+    Attributes
+    ----------
+    file : the file as it was named.
+    place : dotted path of the entry, or "" when the file as a whole is meant.
+    """
+
+    def __init__(self, file: str, place: str, why: str) -> None:
+        super().__init__(f"{file}: {place}: {why}" if place else f"{file}: {why}")
+        self.file, self.place = file, place
 
 
 class DivergedError(VehicleError):

@@ -12,10 +12,48 @@ import numpy as np
 from companion.errors import CompanionError
 from companion.mission import Mission
 from fakevehicle.config import LinkConfig, VehicleConfig, zurich
+from fakevehicle.scenario import world_text
+from fakevehicle.sensors.obstacles import World as Seen
 from fakevehicle.vehicle import Vehicle
+from planner.worlds import Box, Cylinder, Prism, Sphere
 
 LINK = "onboard"
 """The vehicle's name for its link to the companion."""
+
+
+def seen_world(mission: Mission) -> Seen | None:
+    """The mission's obstacles as the vehicle's sensors see them, from where it starts; None: there are none.
+
+    Of a prism they see the sides only; voxels and clouds are not handed over.
+    """
+    start = mission.vehicle.start
+    north, east = start.north, start.east
+    boxes: list[tuple[float, ...]] = []
+    spheres: list[tuple[float, ...]] = []
+    cylinders: list[tuple[float, ...]] = []
+    walls: list[tuple[float, ...]] = []
+    for obstacle in mission.planner_world().obstacles:
+        match obstacle:
+            case Box(lower, upper):
+                low, high = (lower[0] - north, lower[1] - east, lower[2]), (upper[0] - north, upper[1] - east, upper[2])
+                boxes.append((*low, *high))
+            case Sphere(centre, radius):
+                spheres.append((centre[0] - north, centre[1] - east, centre[2], radius))
+            case Cylinder(middle, radius, z):
+                cylinders.append((middle[0] - north, middle[1] - east, radius, *z))
+            case Prism(corners, z):
+                ends = [(n - north, e - east) for n, e in corners]
+                walls += [(*a, *b, *z) for a, b in zip(ends, [*ends[1:], ends[0]], strict=True)]
+            case _:
+                pass
+    if not (boxes or spheres or cylinders or walls):
+        return None
+    return Seen(
+        boxes=np.array(boxes).reshape(-1, 6),
+        spheres=np.array(spheres).reshape(-1, 4),
+        cylinders=np.array(cylinders).reshape(-1, 5),
+        walls=np.array(walls).reshape(-1, 6),
+    )
 
 
 def build_vehicle(mission: Mission, seed: int) -> Vehicle:
@@ -26,6 +64,7 @@ def build_vehicle(mission: Mission, seed: int) -> Vehicle:
         wind_n=np.array([wind.north, wind.east, wind.down]),
         seed=seed,
         links=(LinkConfig(LINK, "onboard"),),
+        world=seen_world(mission),
     )
     return Vehicle(config)
 
@@ -40,8 +79,12 @@ def running_vehicle(mission: Mission, url: str, seed: int, log: Path) -> Iterato
         *("--home", f"{place},{mission.vehicle.start.heading_deg:g}"),
         *("--wind", f"{wind.north:g},{wind.east:g},{wind.down:g}"),
     ]
+    world, scenario = seen_world(mission), log.with_suffix(".scenario.yaml")
     try:
         out = log.open("wb")
+        if world is not None:
+            scenario.write_text(world_text(world), encoding="utf-8")
+            command += ["--scenario", str(scenario)]
     except OSError as error:
         raise CompanionError(f"{log}: cannot be written: {error.strerror or error}") from error
     with out:

@@ -32,6 +32,8 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
         _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
         _m.MAVLINK_MSG_ID_MISSION_CURRENT: 1,
         _m.MAVLINK_MSG_ID_MISSION_ITEM_REACHED: 1,
+        _m.MAVLINK_MSG_ID_DISTANCE_SENSOR: 0.5,
+        _m.MAVLINK_MSG_ID_OBSTACLE_DISTANCE: 1,  # where there is a world to see
     },
     "onboard": {
         _m.MAVLINK_MSG_ID_HEARTBEAT: 1,
@@ -56,6 +58,8 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
         _m.MAVLINK_MSG_ID_CURRENT_MODE: 0.5,
         _m.MAVLINK_MSG_ID_MISSION_CURRENT: 1,
         _m.MAVLINK_MSG_ID_MISSION_ITEM_REACHED: 1,
+        _m.MAVLINK_MSG_ID_DISTANCE_SENSOR: 10,
+        _m.MAVLINK_MSG_ID_OBSTACLE_DISTANCE: 10,
         _m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: 50,  # the simulator's truth, for judging a flight; no loop sees it
     },
 }
