@@ -38,6 +38,7 @@ from fakevehicle.services.missions import Missions
 from fakevehicle.services.navigation import Navigation
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
+from fakevehicle.services.raw import Raw
 from fakevehicle.services.sensing import Sensing
 from fakevehicle.services.service import Service, merged
 from fakevehicle.services.setpoints import Setpoints
@@ -147,6 +148,7 @@ class Vehicle:
         self._services: tuple[Service, ...] = (
             self._telemetry,
             Sensing(self._stack),
+            Raw(self._stack, self._supervisor),
             self._commands,
             self._setpoints,
             Parameters(named, self._outbox, READ_ONLY, self._warn, bytewise=flavour.bytewise),

@@ -72,6 +72,26 @@ def test_every_stream_of_telemetry_says_something() -> None:
     fly(story)
 
 
+def test_streams_that_nobody_sends_unasked_come_at_the_rate_asked_for() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        await ready(system)
+        telemetry = system.telemetry
+        await telemetry.set_rate_scaled_imu(20.0)
+        await telemetry.set_rate_raw_imu(20.0)
+        await telemetry.set_rate_actuator_output_status(10.0)
+        await telemetry.set_rate_distance_sensor(10.0)
+        scaled, raw = await first(telemetry.scaled_imu()), await first(telemetry.raw_imu())
+        assert scaled.acceleration_frd.down_m_s2 == pytest.approx(-9.8, abs=1.5)
+        assert raw.acceleration_frd.down_m_s2 == pytest.approx(-1000, abs=150)  # MAVSDK leaves it in milli-g
+        assert (await first(telemetry.actuator_output_status())).active == 4
+        text = asyncio.ensure_future(first(telemetry.status_text()))
+        await asyncio.sleep(0.2)
+        await system.action.arm()
+        assert "rmed" in (await text).text
+
+    fly(story)
+
+
 def test_version_and_identity() -> None:
     async def story(system: Any, _vehicle: VehicleProcess) -> None:
         version = await system.info.get_version()
