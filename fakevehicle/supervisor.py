@@ -129,6 +129,11 @@ class Supervisor:
         """Heading [rad]; None while it does not know."""
         return self._glance.yaw if self._glance is not None and self._glance.attitude_valid else None
 
+    @property
+    def asked(self) -> Setpoint | None:
+        """The newest setpoint of a peer; None when something else has taken its place."""
+        return self._asked
+
     def conditions(self, now_us: int) -> Conditions:
         """What the guards look at, now."""
         g = self._glance

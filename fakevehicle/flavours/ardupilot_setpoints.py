@@ -6,7 +6,9 @@ They are flown in GUIDED only and after the takeoff; what is not flown is droppe
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +29,11 @@ if TYPE_CHECKING:
 
 CARRY_US = 60_000
 """A setpoint older than this is carried on along its velocity."""
+NOSE_SPEED = 0.5
+"""From this speed over ground on [m/s] the nose turns to where it travels, when no yaw is asked for."""
+NOSE_RATE = math.radians(60.0)
+"""How fast [rad/s]; measured on ArduCopter (WP_YAW_BEHAVIOR 2)."""
+LOOK_S = 0.02
 _m = mavlink
 _GLOBAL = (_m.MAV_FRAME_GLOBAL, _m.MAV_FRAME_GLOBAL_INT)
 _RELATIVE = (_m.MAV_FRAME_GLOBAL_RELATIVE_ALT, _m.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT)
@@ -40,6 +47,7 @@ class GuidedSetpoints(Service):
         self._parts = parts
         self._asked: Setpoint | None = None  # newest, as it came
         self._asked_us = 0
+        self._nose: float | None = None  # heading on the way to that of travel; None: as the vehicle's
 
     def routes(self) -> Mapping[int, Handler]:
         """The three setpoint messages."""
@@ -77,23 +85,36 @@ class GuidedSetpoints(Service):
 
     def stop(self, now_us: int) -> None:
         """Forget what was followed, and stand still."""
-        self._asked = None
+        self._asked = self._nose = None
         self._parts.supervisor.offboard(now_us, stop())
 
     def look(self, now_us: int) -> None:
-        """A followed point goes on at its velocity while the next one is late."""
+        """A followed point goes on at its velocity while the next one is late, and the nose turns to the travel."""
         s, asked = self._parts.supervisor, self._asked
         if asked is None:
             return
-        if s.mode is not Mode.GUIDED or not s.airborne:
+        age_s, timeout_s = (now_us - self._asked_us) * 1e-6, float(self._parts.parameters["GUID_TIMEOUT"])
+        held = not math.isnan(float(asked.position_n[0]))
+        if s.mode is not Mode.GUIDED or not s.airborne or s.asked is None or not (held or age_s < timeout_s):
             self._asked = None
-        elif now_us - self._asked_us > CARRY_US:
-            age_s, timeout_s = (now_us - self._asked_us) * 1e-6, float(self._parts.parameters["GUID_TIMEOUT"])
-            moved = carried_on(asked, age_s, timeout_s)
-            if moved is not None:
-                s.offboard(now_us, moved)
-            if moved is None or age_s > timeout_s:
-                self._asked = None  # it rests from here on
+            return
+        moved = carried_on(asked, age_s, timeout_s) if now_us - self._asked_us > CARRY_US else None
+        nose = self._nose_to_travel() if math.isnan(asked.yaw) and math.isnan(asked.yaw_rate) else None
+        if nose is not None:
+            moved = replace(moved or asked, yaw=nose)
+        if moved is not None:
+            s.offboard(self._asked_us, moved)  # no younger for that
+
+    def _nose_to_travel(self) -> float | None:
+        """The next heading on the way to that of travel [rad]; None while it is too slow to have one."""
+        glance = self._parts.stack.glance
+        if self._nose is None:
+            self._nose = glance.yaw
+        if math.hypot(glance.vx, glance.vy) >= NOSE_SPEED:
+            turn = math.remainder(math.atan2(glance.vy, glance.vx) - self._nose, 2.0 * math.pi)
+            step = NOSE_RATE * LOOK_S
+            self._nose = math.remainder(self._nose + min(max(turn, -step), step), 2.0 * math.pi)
+        return self._nose
 
     def _take(
         self, m: Message, frame: int, position: np.ndarray[tuple[int], np.dtype[np.float64]], now_us: int
@@ -120,6 +141,10 @@ class GuidedSetpoints(Service):
             self._refuse("outside the fence", now_us)
             return
         self._asked, self._asked_us = asked, now_us
+        if not (math.isnan(asked.yaw) and math.isnan(asked.yaw_rate)):
+            self._nose = None
+        elif self._nose is not None:
+            asked = replace(asked, yaw=self._nose)
         s.offboard(now_us, asked)
 
     def _outside(self, asked: Setpoint) -> bool:

@@ -4,6 +4,7 @@ The flight stack is a point that follows its setpoint; what is flown is tested w
 tests/side_by_side.
 """
 
+import math
 import struct
 from typing import Any
 
@@ -193,8 +194,7 @@ def test_a_mode_that_needs_a_position_is_refused_in_the_air_without_one(pilot: P
     fly(pilot)
     stack: Any = pilot.vehicle._stack
     stack.position_known = False
-    pilot.run(2.0)
-    assert mode(pilot) == LAND
+    pilot.until(lambda: mode(pilot) == LAND, 10)
     assert "EKF Failsafe: changed to LAND Mode" in pilot.texts()
     assert pilot.command(_m.MAV_CMD_DO_SET_MODE, 1, GUIDED) == FAILED
     assert pilot.texts()[-1] == "Mode change to GUIDED failed: requires position"
@@ -208,6 +208,27 @@ def test_a_place_to_go_to_is_taken_as_command_int_only(pilot: Pilot) -> None:
     assert pilot.ack(pilot.tick(), _m.MAV_CMD_DO_REPOSITION) == ACCEPTED
     pilot.run(15)
     assert pilot.vehicle.truth.position_n.tolist() == pytest.approx([10.0, 0.0, -6.0], abs=0.3)
+
+
+def test_a_place_to_go_to_takes_the_place_of_a_setpoint(pilot: Pilot) -> None:
+    fly(pilot)
+    pilot.send(local(0xDF8, 0, 3, -5))
+    pilot.run(4)
+    place = (round(47.397742e7) + 900, round(8.545594e7), 6.0)  # 10 m north
+    pilot.send(_m.MAVLink_command_int_message(1, 1, 6, _m.MAV_CMD_DO_REPOSITION, 0, 0, -1, 1, 0, float("nan"), *place))
+    pilot.run(15)
+    assert pilot.vehicle.truth.position_n.tolist() == pytest.approx([10.0, 0.0, -6.0], abs=0.3)
+
+
+def test_the_nose_turns_to_where_it_travels_unless_a_yaw_is_asked_for(pilot: Pilot) -> None:
+    fly(pilot)
+    stack: Any = pilot.vehicle._stack
+    pilot.send(local(0xDC7, 0, 0, 0, (0, 2, 0)))
+    pilot.run(2.9)
+    assert stack.setpoint.yaw == pytest.approx(math.pi / 2, abs=0.02)
+    pilot.send(local(0x9C7, 0, 0, 0, (0, 2, 0)))  # yaw 0 is asked for
+    pilot.run(0.1)
+    assert stack.setpoint.yaw == 0.0
 
 
 def test_streams_start_by_group_and_stop_by_group(pilot: Pilot) -> None:
