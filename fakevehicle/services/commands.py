@@ -194,11 +194,12 @@ class Commands(Service):
     def _reposition(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         """Fly to a place and hold. Parameter 4 is the yaw [rad]; NaN anywhere keeps what is.
 
-        The speed (1) is the vehicle's own: only -1, the default, may be asked for. Of the flags (2) it has CHANGE_MODE.
+        The speed (1) holds until the mode changes; -1 and 0 are MPC_XY_CRUISE. Of the flags (2) it has CHANGE_MODE.
         """
         speed, flags = command.params[:2]
-        if speed not in (-1.0, 0.0) and not math.isnan(speed):
-            return denied(f"param1 is {speed:g}, the speed is MPC_XY_CRUISE")
+        own = speed in (-1.0, 0.0) or math.isnan(speed)
+        if not own and not SLOWEST <= speed <= FASTEST:
+            return denied(f"param1 is {speed:g}, expected -1 or {SLOWEST:g}..{FASTEST:g} m/s")
         if flags not in (0.0, 1.0) and not math.isnan(flags):
             return denied(f"param2 is {flags:g}, expected 0 or 1")
         if command.frame not in _GLOBAL + _RELATIVE:
@@ -224,7 +225,8 @@ class Commands(Service):
         if distance > MAX_GOTO:
             return denied(f"{distance / 1000:.1f} km away, expected at most {MAX_GOTO / 1000:g} km")
         yaw = command.params[3]
-        return judged(self._supervisor.ask_goto(now_us, target_n, yaw if math.isfinite(yaw) else math.nan))
+        yaw = yaw if math.isfinite(yaw) else math.nan
+        return judged(self._supervisor.ask_goto(now_us, target_n, yaw, None if own else speed))
 
     def _arm_disarm(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         wanted, force = command.params[0], command.params[1]
@@ -283,6 +285,8 @@ class Commands(Service):
 MAX_GOTO = 10_000.0
 """Farthest place a DO_REPOSITION may name [m]; the local frame is flat."""
 
+SLOWEST, FASTEST = 0.1, 30.0
+"""Speeds that may be asked for [m/s]."""
 HERE = 10.0
 """A place this near to the vehicle [m] is where it is: clients send the place they last saw, and GPS wanders."""
 BROADCAST = 2.0

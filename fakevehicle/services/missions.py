@@ -29,6 +29,7 @@ from fakevehicle.plans import (
     item_flaw,
     plan_flaw,
 )
+from fakevehicle.services.commands import MAX_GOTO
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Builder, Handler, Service
 from fakevehicle.supervisor import Supervisor
@@ -37,8 +38,8 @@ from wire.dialect import mavlink
 _m = mavlink
 _LOCAL = (_m.MAV_FRAME_LOCAL_NED, _m.MAV_FRAME_LOCAL_ENU, _m.MAV_FRAME_LOCAL_OFFSET_NED)
 _ALL = 255
-MAX_GOTO = 10_000.0
-"""Farthest place that may be asked for [m]; the local frame is flat."""
+LOOK_US = 20_000
+"""Progress and time-outs are looked at this often."""
 GUIDED_ITEM = 2
 """MISSION_ITEM.current of an item that is no mission's but a place to go to now."""
 
@@ -140,7 +141,6 @@ class Missions(Service):
         self._places = places
         self.habits = habits or MissionHabits()
         self._upload: _Upload | None = None
-        self._now_us = 0
         self._told: object = None
         self._reached = 0
 
@@ -314,8 +314,15 @@ class Missions(Service):
             self._accept(sender, message.mission_type)
 
     def step(self, now_us: int) -> None:
-        """Ask again or give up, and tell of progress; once a tick."""
-        self._now_us = now_us
+        """Ask again or give up, and tell of progress."""
+        reached = self._runner.reached_count
+        if reached != self._reached:
+            self._reached = reached
+            message = self.mission_item_reached()
+            if message is not None:
+                self._outbox.everywhere(message)
+        if now_us % LOOK_US:
+            return
         up = self._upload
         if up is not None:
             if now_us - up.heard_us >= self.habits.give_up_us:
@@ -324,17 +331,10 @@ class Missions(Service):
                 self._refuse(up.sender, up.kind.value, flaw)
             elif now_us - up.asked_us >= self.habits.retry_us:
                 self._ask(up, now_us)
-        reached = self._runner.reached_count
-        if reached != self._reached:
-            self._reached = reached
-            message = self.mission_item_reached()
-            if message is not None:
-                self._outbox.everywhere(message)
-        state = (self._runner.current, self._runner.state, self._store.version_of(Kind.MISSION))
-        if state != self._told:
-            first, self._told = self._told is None, state
-            if not first:
-                self._outbox.everywhere(self.mission_current())
+        if self._told is None:
+            self._told = self._progress  # the streams tell the first
+        elif self._progress != self._told:
+            self._tell_progress()
 
     def _busy(self, sender: Sender) -> bool:
         return self._upload is not None and self._upload.sender != sender
@@ -383,11 +383,16 @@ class Missions(Service):
     def set_current(self, sender: Sender, message: Message, now_us: int) -> None:
         """MISSION_SET_CURRENT: answered by MISSION_CURRENT to all."""
         reason = self.jump(message.seq)
-        if reason is None:
-            self._outbox.everywhere(self.mission_current())
-            self._told = (self._runner.current, self._runner.state, self._store.version_of(Kind.MISSION))
-        else:
+        if reason is not None:
             self._refuse(sender, Kind.MISSION.value, Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, reason))
+
+    @property
+    def _progress(self) -> object:
+        return self._runner.current, self._runner.state, self._store.version_of(Kind.MISSION)
+
+    def _tell_progress(self) -> None:
+        self._told = self._progress
+        self._outbox.everywhere(self.mission_current())
 
     def jump(self, sequence: int) -> str | None:
         """Make an item, as clients count, the current one; None or the reason why not."""
@@ -395,6 +400,7 @@ class Missions(Service):
         if not 0 <= index < len(self._store.mission):
             return f"there is no item {sequence}"
         self._runner.set_current(index)
+        self._tell_progress()
         return None
 
     def mission_current(self) -> Message:

@@ -9,7 +9,8 @@ from fakevehicle.fence import FenceMonitor
 from fakevehicle.modes import Event, Refusal
 from fakevehicle.places import Places
 from fakevehicle.plans import GLOBAL_FRAMES
-from fakevehicle.services.missions import MAX_GOTO, Missions
+from fakevehicle.services.commands import FASTEST, MAX_GOTO, SLOWEST
+from fakevehicle.services.missions import Missions
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import (
     ACCEPTED,
@@ -28,8 +29,6 @@ from wire.dialect import mavlink
 
 _m = mavlink
 ROTORS = 4
-SLOWEST, FASTEST = 0.1, 30.0
-"""Speeds that may be asked for [m/s]."""
 
 
 class Navigation(Service):

@@ -68,6 +68,7 @@ def upload(pilot: Pilot, items: list[Any], kind: int = 0) -> int:
         acks = [h for h in heard if h.get_type() == "MISSION_ACK"]
         if acks:
             assert acks[0].mission_type == kind
+            pilot.tick(5)  # progress is looked at 50 times a second
             return int(acks[0].type)
         (request,) = [h for h in heard if h.get_type() == "MISSION_REQUEST_INT"]
         assert request.mission_type == kind
@@ -456,6 +457,14 @@ def test_speed_changes_hold_until_the_mode_changes(pilot: Pilot) -> None:
     assert pilot.command(178, 1, 1.0, -1) == ACCEPTED
     pilot.until(lambda: point(pilot).p[0] > 3.0, 30)
     assert np.hypot(*point(pilot).v[:2]) == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_goto_flies_as_fast_as_it_is_told(pilot: Pilot) -> None:
+    airborne(pilot)
+    pilot.send(m.MAVLink_command_int_message(1, 1, 6, 192, 0, 0, 2.0, 1, 0, NAN, *_e7(30.0, 0.0), 2.5))
+    assert Pilot.ack(pilot.tick(), 192) == ACCEPTED
+    pilot.run(6.0)
+    assert np.hypot(*point(pilot).v[:2]) == pytest.approx(2.0, abs=0.1)
 
 
 # The fence, and other failsafes

@@ -338,7 +338,7 @@ def test_an_unsupported_command_is_acknowledged_as_such(pilot: Pilot) -> None:
         *((511, (30, 50_000, *(0,) * (n - 3), 1), f"param{n}") for n in range(3, 8)),
         *((512, (148, *(0,) * (n - 2), 5), f"param{n}") for n in range(2, 8)),
         (512, (148, math.inf), "param2"),
-        (192, (4.0, 1, 0, NAN, 47.3977, 8.5456, 492.0), "param1"),
+        (192, (400.0, 1, 0, NAN, 47.3977, 8.5456, 492.0), "param1"),
         (192, (-1, 2, 0, NAN, 47.3977, 8.5456, 492.0), "param2"),
         (192, (-1, 1, 30, NAN, 47.3977, 8.5456, 492.0), "param3"),
     ],
