@@ -4,6 +4,7 @@ import sys
 
 from benchmarks import (
     bench_certificates,
+    bench_estimator,
     bench_fields,
     bench_mazes,
     bench_physics,
@@ -26,6 +27,7 @@ def main() -> None:
     bench_mazes.main()
     bench_fields.main()
     bench_search.main()
+    bench_estimator.main()
     bench_simulate.main()
     bench_physics.main()
 
