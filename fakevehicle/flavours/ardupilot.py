@@ -154,6 +154,16 @@ class ArduPilot(Flavour):
         self._using_gps = using_gps
         self._setpoints.look(now_us)
         self._switch_gps(now_us)
+        self._switch_fence()
+
+    def _switch_fence(self) -> None:
+        """The ceiling and the circle of the fence count only while it is enabled."""
+        p = self.parts.parameters
+        enabled = bool(p["GF_ACTION"])
+        for ours, name in (("GF_MAX_VER_DIST", "FENCE_ALT_MAX"), ("GF_MAX_HOR_DIST", "FENCE_RADIUS")):
+            wanted = p[name] if enabled else 0.0
+            if p[ours] != wanted:
+                p.set(ours, wanted)
 
     def _switch_gps(self, now_us: int) -> None:
         """SIM_GPS1_ENABLE takes the receiver away and gives it back."""

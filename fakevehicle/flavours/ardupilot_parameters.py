@@ -47,6 +47,8 @@ ALIASES = (
 
 OWN = (
     Parameter("FORMAT_VERSION", 120, 0, 32767, "", "Format of the stored parameters; kept, and of no effect", _I),
+    Parameter("FENCE_ALT_MAX", 100.0, 10.0, 1000.0, "m", "Fence, when enabled: highest above home"),
+    Parameter("FENCE_RADIUS", 300.0, 30.0, 10_000.0, "m", "Fence, when enabled: farthest from home"),
     Parameter("SIM_GPS1_ENABLE", 1, 0, 1, "", "simulator: whether there is a GPS receiver", _I),
 )
 """Parameters that only this flavour has."""

@@ -31,6 +31,7 @@ ANSWER_US = 150_000
 TEXT_US = 60_000
 """A text that belongs to an answer comes within this; later ones have other causes."""
 TICK_US = 4_000
+TRACK_US = 100_000
 PEER = ("127.0.0.1", 50000)
 
 _LISTED = ("MISSION_ACK", "MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM", "MISSION_ITEM_INT")
@@ -64,6 +65,8 @@ class Talk:
 
     turns: list[Turn]
     story: list[str]
+    track: list[tuple[int, list[float]]] = field(default_factory=list)
+    """(time since boot [us], position from home [m]) of the simulated vehicle, ten times a second."""
 
 
 def packets(path: Path) -> Iterator[tuple[int, bytes]]:
@@ -98,6 +101,7 @@ def play(turns: Sequence[Turn], vehicle: Any, link: str = "onboard", *, seconds:
     """Put a vehicle through the client's half; goes on for `seconds` after the last turn."""
     decoder = mavlink.MAVLink(None)
     ear, played, now_us, waiting = Ear(), [], 0, list(reversed(turns))
+    track: list[tuple[int, list[float]]] = []
     end_us = turns[-1].at_us + round(seconds * 1e6)
     while waiting or now_us < end_us:
         inputs = []
@@ -109,8 +113,10 @@ def play(turns: Sequence[Turn], vehicle: Any, link: str = "onboard", *, seconds:
         for datagram in vehicle.step(now_us, inputs):
             if datagram.link == link:
                 ear.hear(now_us, decoder.decode(bytearray(datagram.data)))
+        if now_us % TRACK_US == 0:
+            track.append((now_us, vehicle.truth.position_n.tolist()))
         now_us += TICK_US
-    return Talk(played, ear.story)
+    return Talk(played, ear.story, track)
 
 
 class Ear:

@@ -113,6 +113,35 @@ def test_the_table_claims_no_difference_that_is_not_there(recording: Recording) 
     assert unused(differences(*talks(recording)), rows(recording.name)) == []
 
 
+RESTS = {
+    152.3: (0.01, -0.01, -3.97),  # after a takeoff to 4 m
+    163.5: (0.04, 5.01, -4.00),  # a position alone
+    172.3: (0.00, -0.03, -4.00),
+    182.7: (7.11, -0.03, -4.00),  # a velocity for 7.3 s; the last one flown until GUID_TIMEOUT
+    195.0: (-0.23, -0.05, -4.00),  # a position with a yaw, after velocities in the body's frames
+    207.5: (-0.17, -0.02, -4.00),  # a yaw rate alone with velocity zero, and a turn by command
+    212.9: (0.01, -4.79, -4.00),  # a position on the way, then one with acceleration and no velocity: a stop
+    215.9: (-0.01, -4.87, -4.00),  # a position in frame 3: a stop
+    234.2: (1.57, 2.05, -4.00),  # position and velocity, carried on; then an offset of 2 m east
+    243.5: (6.02, 1.99, -4.99),  # DO_REPOSITION
+    249.3: (6.03, 1.99, -4.99),  # a position beyond the fence: not flown
+    251.3: (6.02, 1.99, -4.99),  # a position above the fence: not flown
+    284.0: (-0.04, -0.10, -4.01),  # back from the fence
+    350.0: (0.00, -0.01, 0.01),  # a mission, a return, on the ground
+    362.5: (0.01, -0.01, -9.96),  # a takeoff to 10 m
+}
+"""Where ArduCopter was in arducopter-services.tlog after each kind of setpoint: its LOCAL_POSITION_NED [m] at a time
+[s] since the recording began."""
+
+
+@pytest.mark.slow
+def test_setpoints_lead_where_they_led_arducopter() -> None:
+    _, ours = talks(SERVICES)
+    track = {now_us: position for now_us, position in ours.track}
+    apart = {at: math.dist(track[round((at + SERVICES.boot_s) * 10) * 100_000], place) for at, place in RESTS.items()}
+    assert {at: round(d, 2) for at, d in apart.items() if d > 0.6} == {}
+
+
 def test_the_recordings_say_enough_to_be_compared() -> None:
     """The comparison cannot pass for want of answers: the real autopilots gave this many."""
     answered = {}
