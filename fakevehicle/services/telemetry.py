@@ -13,7 +13,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fakevehicle.battery import Battery
-from fakevehicle.codec import Message
+from fakevehicle.codec import Layout, Message
 from fakevehicle.config import VehicleConfig
 from fakevehicle.flight import FlightStack
 from fakevehicle.places import Places
@@ -52,6 +52,15 @@ _SENSORS = (
     | mavlink.MAV_SYS_STATUS_AHRS
     | mavlink.MAV_SYS_STATUS_PREARM_CHECK
 )
+
+_ATTITUDE = Layout(mavlink.MAVLink_attitude_message)
+_ATTITUDE_QUATERNION = Layout(mavlink.MAVLink_attitude_quaternion_message)
+_LOCAL_POSITION_NED = Layout(mavlink.MAVLink_local_position_ned_message)
+_GLOBAL_POSITION_INT = Layout(mavlink.MAVLink_global_position_int_message)
+_HIGHRES_IMU = Layout(mavlink.MAVLink_highres_imu_message)
+_ODOMETRY = Layout(mavlink.MAVLink_odometry_message)
+_HIL_STATE_QUATERNION = Layout(mavlink.MAVLink_hil_state_quaternion_message)
+"""What goes out thirty times a second and more."""
 
 
 class Telemetry(Service):
@@ -163,19 +172,19 @@ class Telemetry(Service):
         w, x, y, z = g.q_nb
         roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
         pitch = math.asin(min(1.0, max(-1.0, 2.0 * (w * y - z * x))))
-        return mavlink.MAVLink_attitude_message(self._boot_ms, roll, pitch, g.yaw, *g.omega_b)
+        return _ATTITUDE(self._boot_ms, roll, pitch, g.yaw, *g.omega_b)
 
     def attitude_quaternion(self) -> Message | None:
         g = self._stack.glance
         if not g.attitude_valid:
             return None
-        return mavlink.MAVLink_attitude_quaternion_message(self._boot_ms, *g.q_nb, *g.omega_b, (0.0, 0.0, 0.0, 0.0))
+        return _ATTITUDE_QUATERNION(self._boot_ms, *g.q_nb, *g.omega_b, 0.0, 0.0, 0.0, 0.0)
 
     def local_position_ned(self) -> Message | None:
         g = self._stack.glance
         if not g.position_valid:
             return None
-        return mavlink.MAVLink_local_position_ned_message(self._boot_ms, g.x, g.y, g.z, g.vx, g.vy, g.vz)
+        return _LOCAL_POSITION_NED(self._boot_ms, g.x, g.y, g.z, g.vx, g.vy, g.vz)
 
     def global_position_int(self) -> Message | None:
         g, s = self._stack.glance, self._supervisor
@@ -187,9 +196,7 @@ class Telemetry(Service):
         ground = float(s.home.position_n[2]) if s.home is not None else 0.0
         relative = round((ground - g.z) * 1e3)
         velocity = _clip16(g.vx * 100.0), _clip16(g.vy * 100.0), _clip16(g.vz * 100.0)
-        return mavlink.MAVLink_global_position_int_message(
-            self._boot_ms, *place, relative, *velocity, _centidegrees(g.yaw)
-        )
+        return _GLOBAL_POSITION_INT(self._boot_ms, *place, relative, *velocity, _centidegrees(g.yaw))
 
     def odometry(self) -> Message | None:
         """Pose and velocity in local NED, body rates; variances of what the filter estimates.
@@ -200,18 +207,17 @@ class Telemetry(Service):
         e = self.estimate
         if not (e.attitude_valid and e.position_valid):
             return None
-        q = e.q_nb.tolist()
         t1, t2, t3, v1, v2, v3, p1, p2, p3 = e.covariance.diagonal()[:9].tolist()
-        return mavlink.MAVLink_odometry_message(
+        return _ODOMETRY(
             self.now_us,
-            mavlink.MAV_FRAME_LOCAL_NED,
-            mavlink.MAV_FRAME_LOCAL_NED,
             *e.position_n.tolist(),
-            q,
+            *e.q_nb.tolist(),
             *e.velocity_n.tolist(),
             *e.omega_b.tolist(),
-            _upper_triangle(p1, p2, p3, t1, t2, t3),
-            _upper_triangle(v1, v2, v3, NAN, NAN, NAN),
+            *_upper_triangle(p1, p2, p3, t1, t2, t3),
+            *_upper_triangle(v1, v2, v3, NAN, NAN, NAN),
+            mavlink.MAV_FRAME_LOCAL_NED,
+            mavlink.MAV_FRAME_LOCAL_NED,
             0,
             mavlink.MAV_ESTIMATOR_TYPE_AUTOPILOT,
             0,
@@ -254,7 +260,7 @@ class Telemetry(Service):
 
     def highres_imu(self) -> Message:
         imu, mag, baro = self._stack.imu, self._stack.mag, self._stack.baro
-        return mavlink.MAVLink_highres_imu_message(
+        return _HIGHRES_IMU(
             self.now_us,
             *imu.specific_force_b.tolist(),
             *imu.omega_b.tolist(),
@@ -264,6 +270,7 @@ class Telemetry(Service):
             baro.altitude,
             baro.temperature,
             0b1_1011_1111_1111,  # everything but the differential pressure
+            0,
         )
 
     def gps_raw_int(self) -> Message | None:
@@ -381,9 +388,9 @@ class Telemetry(Service):
         q = t.q_nb.tolist()
         latitude, longitude, millimetres = self._places.truth_e7(t.position_n)
         acceleration = [_clip16(a / G * 1e3) for a in _into_body(q, t.acceleration_n.tolist())]
-        return mavlink.MAVLink_hil_state_quaternion_message(
+        return _HIL_STATE_QUATERNION(
             self.now_us,
-            q,
+            *q,
             *t.omega_b.tolist(),
             latitude,
             longitude,

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fakevehicle.codec import Encoder, decode
+from fakevehicle.codec import Encoder, Layout, decode
 from wire.dialect import mavlink
 from wire.framing import Framer
 
@@ -35,6 +35,22 @@ def test_every_message_is_packed_as_pymavlink_packs_it(seed: int) -> None:
         expected = example(kind, seed).pack(reference)
         reference.seq = (reference.seq + 1) % 256
         assert encoder.pack(example(kind, seed)) == expected, kind.msgname
+
+
+def test_every_message_without_a_text_is_laid_out_as_pymavlink_packs_it() -> None:
+    encoder = Encoder(7)
+    reference = mavlink.MAVLink(None, srcSystem=7, srcComponent=1)
+    for kind in KINDS:
+        if "char" in kind.fieldtypes:
+            continue
+        message = example(kind, 5)
+        expected = message.pack(reference)
+        reference.seq = (reference.seq + 1) % 256
+        flat: list[Any] = []
+        for name in kind.ordered_fieldnames:
+            value = getattr(message, name)
+            flat += value if isinstance(value, list) else [value]
+        assert encoder.pack(Layout(kind)(*flat)) == expected, kind.msgname
 
 
 @pytest.mark.parametrize("seed", [3])
