@@ -18,10 +18,10 @@ from fakevehicle.config import Profile
 from fakevehicle.faults import Fault, FaultKind, Sensor
 from fakevehicle.flavours import ardupilot_parameters as names
 from fakevehicle.flavours.ardupilot_commands import ArduCommands, failed
-from fakevehicle.flavours.ardupilot_modes import AUTO, BY_NUMBER, GUIDED, LAND, RTL, STABILIZE
+from fakevehicle.flavours.ardupilot_modes import AUTO, BY_NUMBER, GUIDED, LAND, MODES, RTL, STABILIZE
 from fakevehicle.flavours.ardupilot_setpoints import GuidedSetpoints
 from fakevehicle.flavours.ardupilot_streams import RATES_HZ, StreamRequests
-from fakevehicle.flavours.base import Flavour, Parts, Said
+from fakevehicle.flavours.base import Flavour, ModeInfo, Parts, Said
 from fakevehicle.modes import Mode
 from fakevehicle.params import ParameterSet
 from fakevehicle.services.missions import MissionHabits
@@ -108,9 +108,14 @@ class ArduPilot(Flavour):
             _m.MAVLINK_MSG_ID_CURRENT_MODE: self.current_mode,
             _m.MAVLINK_MSG_ID_AUTOPILOT_VERSION: self.autopilot_version,
             _m.MAVLINK_MSG_ID_EKF_STATUS_REPORT: self.ekf_status_report,
+            _m.MAVLINK_MSG_ID_AVAILABLE_MODES_MONITOR: self.available_modes_monitor,
         }
 
     # The mode
+
+    def modes(self) -> tuple[ModeInfo, ...]:
+        """ArduCopter's, as far as this vehicle has them."""
+        return tuple(ModeInfo(mode.name, mode.number, mode.standard) for mode in MODES)
 
     def change(self, number: int, now_us: int) -> Verdict:
         """Another mode, as a peer asks for it; its number is shown from here on."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from fakevehicle.codec import Message
-from fakevehicle.flavours.ardupilot_modes import ARMING_WORDS, AUTO, BY_NUMBER, GUIDED, LAND, MODES, RTL
+from fakevehicle.flavours.ardupilot_modes import ARMING_WORDS, AUTO, BY_NUMBER, GUIDED, LAND, RTL
 from fakevehicle.flavours.base import Parts
 from fakevehicle.modes import GUARDS, Event
 from fakevehicle.services.commands import FORCE
@@ -179,9 +179,9 @@ class ArduCommands(Service):
         if not math.isfinite(number):
             return failed(f"param1 is {number:g}")
         if round(number) == _m.MAVLINK_MSG_ID_AVAILABLE_MODES:
-            which = max(round(index), 1) if math.isfinite(index) else 1
-            if which <= len(MODES):
-                self._flavour.after_ack(sender, available_mode(which))
+            mode = self._flavour.available_mode(max(round(index), 1) if math.isfinite(index) else 1)
+            if mode is not None:
+                self._flavour.after_ack(sender, mode)
             return ACCEPTED
         message = self._parts.streams.build(round(number))
         if message is None:
@@ -192,12 +192,6 @@ class ArduCommands(Service):
     def _request_version(self, sender: Sender, _command: Command, _now_us: int) -> Verdict:
         self._flavour.after_ack(sender, self._flavour.autopilot_version())
         return ACCEPTED
-
-
-def available_mode(index: int) -> Message:
-    """AVAILABLE_MODES of one mode, counted from 1."""
-    mode = MODES[index - 1]
-    return _m.MAVLink_available_modes_message(len(MODES), index, mode.standard, mode.number, 0, mode.name.encode())
 
 
 def failed(reason: str) -> Verdict:

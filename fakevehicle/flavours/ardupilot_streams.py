@@ -40,6 +40,7 @@ GROUPS: Mapping[int, tuple[int, ...]] = {
         _m.MAVLINK_MSG_ID_EKF_STATUS_REPORT,
         _m.MAVLINK_MSG_ID_VIBRATION,
         _m.MAVLINK_MSG_ID_DISTANCE_SENSOR,
+        _m.MAVLINK_MSG_ID_AVAILABLE_MODES_MONITOR,
     ),
 }
 

@@ -45,6 +45,15 @@ class Parts:
     commands: Commands
 
 
+@dataclass(frozen=True, slots=True)
+class ModeInfo:
+    """One mode as AVAILABLE_MODES tells it: name, HEARTBEAT's custom mode, MAV_STANDARD_MODE."""
+
+    name: str
+    custom_mode: int
+    standard: int
+
+
 class Flavour(Service):
     """PX4's way wherever a flavour does not say otherwise.
 
@@ -68,6 +77,24 @@ class Flavour(Service):
     def attach(self, parts: Parts) -> None:
         """The vehicle stands: here are its rooms."""
         self.parts = parts
+
+    def modes(self) -> tuple[ModeInfo, ...]:
+        """Every mode, in the order in which AVAILABLE_MODES counts them."""
+        raise NotImplementedError
+
+    def available_mode(self, index: int) -> Message | None:
+        """AVAILABLE_MODES of one mode, counted from 1; None past the end."""
+        modes = self.modes()
+        if not 1 <= index <= len(modes):
+            return None
+        mode = modes[index - 1]
+        return mavlink.MAVLink_available_modes_message(
+            len(modes), index, mode.standard, mode.custom_mode, 0, mode.name.encode("ascii")
+        )
+
+    def available_modes_monitor(self) -> Message:
+        """The list of modes never changes."""
+        return mavlink.MAVLink_available_modes_monitor_message(0)
 
     def rates(self, profile: Profile) -> Mapping[int, float]:
         """The streams a link starts with: message id to rate [Hz]."""

@@ -1,12 +1,14 @@
 """PX4's way: its mode numbers, its streams, a HEARTBEAT at every change and texts before it."""
 
+import math
 from collections.abc import Mapping
 
 from fakevehicle.codec import Message
 from fakevehicle.config import Profile
-from fakevehicle.flavours.base import Flavour
-from fakevehicle.modes import Mode
-from fakevehicle.services.service import Builder
+from fakevehicle.flavours.base import Flavour, ModeInfo
+from fakevehicle.modes import PX4_NUMBERS, Mode
+from fakevehicle.services.outbox import Sender
+from fakevehicle.services.service import ACCEPTED, Builder, Command, CommandSpec, Verdict, denied
 from wire.dialect import mavlink
 
 _m = mavlink
@@ -65,6 +67,8 @@ RATES_HZ: Mapping[Profile, Mapping[int, float]] = {
 }
 _STANDARD_MODE = {
     Mode.POSITION: mavlink.MAV_STANDARD_MODE_POSITION_HOLD,
+    Mode.ALTITUDE: mavlink.MAV_STANDARD_MODE_ALTITUDE_HOLD,
+    Mode.MISSION: mavlink.MAV_STANDARD_MODE_MISSION,
     Mode.TAKEOFF: mavlink.MAV_STANDARD_MODE_TAKEOFF,
     Mode.LAND: mavlink.MAV_STANDARD_MODE_LAND,
     Mode.RTL: mavlink.MAV_STANDARD_MODE_SAFE_RECOVERY,
@@ -78,11 +82,40 @@ class Px4(Flavour):
         """PX4's own for its two kinds of links."""
         return RATES_HZ[profile]
 
+    def commands(self) -> Mapping[int, CommandSpec]:
+        """REQUEST_MESSAGE, which counts modes."""
+        self._below = self.parts.commands.commands()[mavlink.MAV_CMD_REQUEST_MESSAGE]
+        spec = CommandSpec(self._request_message, self._below.title, (*self._below.understood, 2))
+        return {mavlink.MAV_CMD_REQUEST_MESSAGE: spec}
+
+    def _request_message(self, sender: Sender, command: Command, now_us: int) -> Verdict:
+        """AVAILABLE_MODES by its index (parameter 2), 0 for all of them; any other message as everywhere."""
+        number, index = command.params[:2]
+        wanted = 0.0 if math.isnan(index) else index
+        if number != mavlink.MAVLINK_MSG_ID_AVAILABLE_MODES:
+            if wanted != 0.0:
+                return denied(f"param2 is {index:g}, not supported")
+            return self._below.carry_out(sender, command, now_us)
+        count = len(self.modes())
+        if wanted not in range(count + 1):
+            return denied(f"param2 is {index:g}, there are {count} modes")
+        for each in range(1, count + 1) if wanted == 0.0 else (int(wanted),):
+            self.parts.outbox.answer(sender, self.available_mode(each))
+        return ACCEPTED
+
+    def modes(self) -> tuple[ModeInfo, ...]:
+        """PX4's, as far as this vehicle has them."""
+        return tuple(
+            ModeInfo(mode.title, mode.custom_mode, _STANDARD_MODE.get(mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD))
+            for mode in PX4_NUMBERS
+        )
+
     def builders(self) -> Mapping[int, Builder]:
         """What tells the mode."""
         return {
             mavlink.MAVLINK_MSG_ID_HEARTBEAT: self.heartbeat,
             mavlink.MAVLINK_MSG_ID_CURRENT_MODE: self.current_mode,
+            mavlink.MAVLINK_MSG_ID_AVAILABLE_MODES_MONITOR: self.available_modes_monitor,
         }
 
     def state(self) -> object:
