@@ -13,6 +13,8 @@ pytest.importorskip("mavsdk_grpc")
 from mavsdk_client import first, fly, last, ready, until
 from mavsdk_grpc.action import ActionError
 from mavsdk_grpc.ftp import FtpError
+from mavsdk_grpc.geofence import Circle, FenceType, GeofenceData, Point, Polygon
+from mavsdk_grpc.mission import MissionItem, MissionPlan
 from mavsdk_grpc.offboard import (
     OffboardError,
     PositionNedYaw,
@@ -207,3 +209,39 @@ def test_take_off_goto_offboard_in_four_ways_return_and_land() -> None:
 def away(told: Any, point: tuple[float, float, float]) -> float:
     p = told.position
     return math.dist((p.north_m, p.east_m, p.down_m), point)
+
+
+def test_a_mission_and_a_fence_are_loaded_and_the_mission_flown() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        await ready(system)
+        home = await first(system.telemetry.home())
+
+        def item(north: float, stay: float) -> MissionItem:
+            nan = math.nan
+            camera, action = MissionItem.CameraAction.NONE, MissionItem.VehicleAction.NONE
+            latitude = home.latitude_deg + north / 111_180.0
+            place = (latitude, home.longitude_deg, 5.0, 5.0, False, nan, nan)
+            return MissionItem(*place, camera, stay, nan, nan, nan, nan, action)
+
+        fence = [(home.latitude_deg + n * 1e-3, home.longitude_deg + e * 1e-3) for n, e in ((1, 1), (1, -1), (-1, 0))]
+        area = Polygon([Point(*corner) for corner in fence], FenceType.INCLUSION)
+        hole = Circle(Point(home.latitude_deg, home.longitude_deg + 5e-4), 5.0, FenceType.EXCLUSION)
+        await system.geofence.upload_geofence(GeofenceData([area], [hole]))
+        await system.mission.set_return_to_launch_after_mission(False)
+        await system.mission.upload_mission(MissionPlan([item(4.0, 0.5), item(10.0, 0.5)]))
+        back = (await system.mission.download_mission()).mission_items
+        assert [round((one.latitude_deg - home.latitude_deg) * 111_180.0) for one in back] == [4, 10]
+        assert [one.relative_altitude_m for one in back] == [5.0, 5.0]
+        await system.action.arm()
+        await system.mission.start_mission()
+        await until(system.telemetry.flight_mode(), lambda mode: mode == FlightMode.MISSION, 5)
+        await until(system.mission.mission_progress(), lambda done: done.current == done.total == 2, 40)
+        assert await system.mission.is_mission_finished()
+        position = await first(system.telemetry.position())
+        assert (position.latitude_deg - home.latitude_deg) * 111_180.0 == pytest.approx(10.0, abs=2.5)
+        await system.action.land()
+        await until(system.telemetry.armed(), lambda armed: not armed, 30)
+        await system.mission.clear_mission()
+        await system.geofence.clear_geofence()
+
+    fly(story, "--speed", "3")
