@@ -125,14 +125,16 @@ class FaultSchedule:
 
     def __init__(self, faults: Iterable[Fault] = ()) -> None:
         self._faults = tuple(faults)
+        self._concerned = {f.sensor for f in self._faults}
 
-    def concerns(self, *sensors: Sensor) -> bool:
-        """Whether there is, was or will be a fault of one of these."""
-        return any(f.sensor in sensors for f in self._faults)
+    def concerns(self, sensor: Sensor) -> bool:
+        """Whether there is, was or will be a fault of this one; cheap enough for every sample."""
+        return sensor in self._concerned
 
     def add(self, fault: Fault) -> None:
         """One more; when there are `MOST`, the oldest is forgotten."""
         self._faults = (*self._faults, fault)[-MOST:]
+        self._concerned.add(fault.sensor)
 
     def mend(self, sensor: Sensor, now_us: int) -> None:
         """End every fault of one sensor that holds at `now_us`."""

@@ -12,7 +12,14 @@ import numpy as np
 from filterpy.kalman import ExtendedKalmanFilter
 
 from fakevehicle.estimator.measurements import Measurement
-from fakevehicle.estimator.strapdown import ERROR, NOMINAL, inject, normalised_innovation_squared, propagate
+from fakevehicle.estimator.strapdown import (
+    ERROR,
+    NOMINAL,
+    inject,
+    normalised_innovation_squared,
+    propagate,
+    stacked,
+)
 from fakevehicle.vocabulary import FloatArray
 
 FELT_TIME = 0.1
@@ -77,12 +84,9 @@ class ErrorStateFilter(ExtendedKalmanFilter):  # type: ignore[misc]  # filterpy 
 
     def take(self, measurements: Sequence[Measurement]) -> None:
         """Take measurements of one moment in, together, whatever they are worth; their noises are independent."""
-        if len(measurements) == 1:
-            y, H, R = measurements[0].innovation, measurements[0].H, measurements[0].R
-        else:
-            y = np.concatenate([m.innovation for m in measurements])
-            H = np.concatenate([m.H for m in measurements])
-            R = np.diag(np.concatenate([m.R.diagonal() for m in measurements]))
+        y, H, R = measurements[0].innovation, measurements[0].H, measurements[0].R
+        for other in measurements[1:]:
+            y, H, R = stacked(y, H, R, other.innovation, other.H, other.R)
         self.update(0.0, lambda _: H, _zero, R=R, residual=lambda _z, _h: y)
         inject(self.nominal, self.x, self.P, self._scratch)
 

@@ -35,7 +35,7 @@ from fakevehicle.estimator.eskf import ErrorStateFilter, Fusion
 from fakevehicle.estimator.measurements import Measurement
 from fakevehicle.estimator.predictor import PREDICTOR, SPARE
 from fakevehicle.estimator.settings import EstimatorConfig
-from fakevehicle.estimator.strapdown import shift_output
+from fakevehicle.estimator.strapdown import dip_and_strength, shift_output
 from fakevehicle.estimator.wind import WindWatch
 from fakevehicle.geodesy import to_local
 from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, MagSample, Resets
@@ -64,6 +64,11 @@ class Validity:
     velocity: bool
     position: bool
     altitude: bool
+    climb: bool  # the vertical part of the velocity
+    gps: bool  # sensors whose word has been accepted lately
+    baro: bool
+    mag: bool
+    imu: bool
 
 
 class Estimator:
@@ -118,7 +123,8 @@ class Estimator:
         self._zero_samples, self._zero_us = 1, 0
         self._difference = 0.0  # GPS's z less the filter's
         self._differences = 0
-        self._dip, self._strength = float(field_n[2]), math.sqrt(float(field_n @ field_n))  # running means [gauss]
+        self._true_dip, self._true_strength = float(field_n[2]), math.sqrt(float(field_n @ field_n))  # [gauss]
+        self._dip, self._strength = self._true_dip, self._true_strength  # running means of what is measured
         self._wind = WindWatch()
         self._drag_us = 0
         self._delay_us = config.gps_delay_us
@@ -247,15 +253,11 @@ class Estimator:
             return []
         assert self.filter is not None
         nominal, field_b = self.filter.nominal, sample.field_b
-        w, x, y, z = nominal[6:10].tolist()
-        dip = (
-            2.0 * ((x * z - w * y) * field_b[0] + (y * z + w * x) * field_b[1]) + (1 - 2 * (x * x + y * y)) * field_b[2]
-        )
-        self._dip += FIELD_SHARE * (float(dip) - self._dip)
-        self._strength += FIELD_SHARE * (math.sqrt(float(field_b @ field_b)) - self._strength)
-        whole = math.sqrt(float(self._field_n @ self._field_n))
-        wrong = max(abs(self._strength - whole), abs(self._dip - float(self._field_n[2])))
-        clean = wrong < FIELD_TOLERANCE * whole
+        dip, strength = dip_and_strength(nominal, field_b)
+        self._dip += FIELD_SHARE * (dip - self._dip)
+        self._strength += FIELD_SHARE * (strength - self._strength)
+        wrong = max(abs(self._strength - self._true_strength), abs(self._dip - self._true_dip))
+        clean = wrong < FIELD_TOLERANCE * self._true_strength
         return self._weigh(
             lambda: measurements.magnetometer(nominal, sample.field_b, self._field_n, self._config.mag),
             _YAW if clean else (),
@@ -351,17 +353,23 @@ class Estimator:
     def validity(self, now_us: int) -> Validity:
         """Which quantities can be relied on now; cheap enough for every look."""
         if self.filter is None:
-            return Validity(False, False, False, False)
+            return Validity(*(False,) * 9)
         P, aids = self.filter.P, self._aids
         gps, since = aids["gps_position"].fresh(now_us), now_us - aids["gps_position"].since_us
+        fast, baro = aids["gps_velocity"].fresh(now_us), aids["baro"].fresh(now_us)
         settled = since >= (RESETTLE_US if self._settled else self._config.gps_settling_us)
-        height = aids["baro"].fresh(now_us) or aids["gps_height"].fresh(now_us)
+        height = baro or aids["gps_height"].fresh(now_us)
         imu = not self.flying or aids["imu"].accepted_us is None or now_us - aids["imu"].accepted_us < 2 * DRAG_US
         return Validity(
             attitude=bool(imu and max(P[0, 0], P[1, 1], P[2, 2]) < 0.3**2),
-            velocity=bool(aids["gps_velocity"].fresh(now_us) and max(P[3, 3], P[4, 4], P[5, 5]) < 1.0),
+            velocity=bool(fast and max(P[3, 3], P[4, 4], P[5, 5]) < 1.0),
             position=bool(gps and settled and max(P[6, 6], P[7, 7]) < 3.0**2),
             altitude=bool(height and P[8, 8] + self._height_variance(now_us) < 3.0**2),
+            climb=bool((height or fast) and P[5, 5] < 1.0),
+            gps=gps,
+            baro=baro,
+            mag=aids["mag"].fresh(now_us),
+            imu=imu,
         )
 
     def estimate(self, now_us: int) -> Estimate:

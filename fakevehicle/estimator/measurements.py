@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fakevehicle.estimator.strapdown import ERROR, matrix, seen_from_body
+from fakevehicle.estimator.strapdown import ERROR, field_in_body, matrix, seen_from_body
 from fakevehicle.vocabulary import FloatArray
 
 
@@ -43,12 +43,13 @@ def _selector(first: int, count: int) -> FloatArray:
 _H_VELOCITY = _selector(3, 3)
 _H_HORIZONTAL = _selector(6, 2)
 _H_DOWN = _selector(8, 1)
+_EYE, _PLANE = np.eye(3), np.eye(2)
 _VERTICAL = np.diag([1.0, 1.0, 2.25])  # 1.5 times as noisy, squared
 
 
 def gps_position(nominal: FloatArray, position_n: FloatArray, noise: float) -> Measurement:
     """North and east of a fix, (>= 2,) [m]. Height is the barometer's: a GPS height is worse and has another zero."""
-    return Measurement("gps_position", position_n[:2] - nominal[0:2], _H_HORIZONTAL, noise**2 * np.eye(2))
+    return Measurement("gps_position", position_n[:2] - nominal[0:2], _H_HORIZONTAL, noise**2 * _PLANE)
 
 
 def gps_velocity(nominal: FloatArray, velocity_n: FloatArray, noise: float) -> Measurement:
@@ -68,12 +69,9 @@ def baro(nominal: FloatArray, height: float, noise: float) -> Measurement:
 
 def magnetometer(nominal: FloatArray, field_b: FloatArray, field_n: FloatArray, noise: float) -> Measurement:
     """Magnetic field in b, (3,) [gauss], against the known local field in n."""
-    seen = np.empty(3)
-    seen_from_body(nominal[6:10], field_n, seen)
-    x, y, z = seen.tolist()
-    H = np.zeros((3, ERROR))
-    H[0, 1], H[0, 2], H[1, 0], H[1, 2], H[2, 0], H[2, 1] = -z, y, z, -x, -y, x
-    return Measurement("mag", field_b - seen, H, noise**2 * np.eye(3))
+    y, H = np.empty(3), np.zeros((3, ERROR))
+    field_in_body(nominal, field_n, field_b, y, H)
+    return Measurement("mag", y, H, noise**2 * _EYE)
 
 
 def drag(nominal: FloatArray, felt_b: FloatArray, wind_n: FloatArray, k: float, sigma: float) -> Measurement:
@@ -95,4 +93,4 @@ def drag(nominal: FloatArray, felt_b: FloatArray, wind_n: FloatArray, k: float, 
     H[0, 1], H[0, 2], H[1, 0], H[1, 2] = -z, y, z, -x  # rows 0 and 1 of [air]x
     H[0, 3:6], H[1, 3:6] = R[0::3], R[1::3]
     H[0, 12] = H[1, 13] = -1.0 / k  # a bias is taken for drag
-    return Measurement("drag", -felt_b[:2] / k - air[:2], H, sigma**2 * np.eye(2))
+    return Measurement("drag", -felt_b[:2] / k - air[:2], H, sigma**2 * _PLANE)

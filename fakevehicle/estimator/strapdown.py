@@ -136,6 +136,37 @@ def seen_from_body(q, vector_n, out):
 
 
 @kernel
+def field_in_body(nominal, field_n, field_b, y, H):
+    """Innovation (3,) of a magnetometer and its Jacobian (3, 15), both written: h = R^T m_n, H = [h]x in dtheta."""
+    h = np.empty(3)
+    seen_from_body(nominal[6:10], field_n, h)
+    for i in range(3):
+        y[i] = field_b[i] - h[i]
+    H[0, 1], H[0, 2] = -h[2], h[1]
+    H[1, 0], H[1, 2] = h[2], -h[0]
+    H[2, 0], H[2, 1] = -h[1], h[0]
+
+
+@kernel
+def dip_and_strength(nominal, field_b):
+    """Down component and norm of a magnetic field in b, (3,) [gauss], at the believed attitude."""
+    m = matrix(nominal[6:10])
+    x, y, z = field_b[0], field_b[1], field_b[2]
+    return m[6] * x + m[7] * y + m[8] * z, math.sqrt(x * x + y * y + z * z)
+
+
+@kernel
+def stacked(y, H, R, y2, H2, R2):
+    """Two measurements of one moment, with independent noise, as one: (y, H, R)."""
+    m, n = y.shape[0], y2.shape[0]
+    both, rows, noise = np.empty(m + n), np.empty((m + n, H.shape[1])), np.zeros((m + n, m + n))
+    both[:m], both[m:] = y, y2
+    rows[:m], rows[m:] = H, H2
+    noise[:m, :m], noise[m:, m:] = R, R2
+    return both, rows, noise
+
+
+@kernel
 def normalised_innovation_squared(P, H, R, y):
     """NIS = y^T (H P H^T + R)^-1 y by Cholesky's factor: S = L L^T, NIS = |L^-1 y|^2.
 

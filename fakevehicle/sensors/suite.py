@@ -116,7 +116,6 @@ class Sensors:
             None if world is None else ObstacleSensor(world, rng[Sensor.OBSTACLE], spoilt[Sensor.OBSTACLE])
         )
         self._imu = imu
-        self._imu_spoilt = False
         self._instability = Instability(rng[Sensor.BARO].spawn(1)[0], BARO_TICKS * period_us * 1e-6)
         self.configure(parameters)
         self.gps: GpsSample | None = None
@@ -166,8 +165,7 @@ class Sensors:
         if fix is not None:
             self.gps = fix
             arrived(fix)
-        if self._imu_spoilt or self._faults.concerns(Sensor.GYRO, Sensor.ACCEL):
-            self._imu_spoilt = True
+        if self._faults.concerns(Sensor.GYRO) or self._faults.concerns(Sensor.ACCEL):
             set_faults(self._imu, self._faults, now_us, self._imu_noises)
 
     def _look_at_pressure_and_field(

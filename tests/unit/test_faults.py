@@ -54,7 +54,9 @@ def test_a_schedule_knows_what_holds_when_and_forgets_the_oldest_of_too_many() -
     for k in range(10 * MOST):
         schedule.add(Fault(Sensor.BARO, FaultKind.OFF, k))
     assert len(schedule.active(Sensor.BARO, 10**9)) == MOST
-    assert not schedule.concerns(Sensor.MAG)
+    assert not schedule.active(Sensor.MAG, 10**9)
+    assert schedule.concerns(Sensor.MAG)
+    assert not schedule.concerns(Sensor.GYRO)
 
 
 def said(text: str, seconds: int = 40) -> list[float]:
