@@ -123,6 +123,8 @@ class Failsafes:
     def step(self, holding: Iterable[Trigger]) -> list[Tripped]:
         """What has begun since the last step and does something, the most severe first."""
         now = frozenset(holding)
+        if now == self._holding:
+            return []
         begun = [Tripped(trigger, self.action(trigger)) for trigger in Trigger if trigger in now - self._holding]
         self._holding = now
         return sorted((t for t in begun if t.action is not Action.NOTHING), key=lambda t: -t.action)
