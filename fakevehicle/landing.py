@@ -14,23 +14,27 @@ from dataclasses import dataclass
 
 from fakevehicle.vocabulary import Glance
 
-LIFT_THRUST = 0.35  # of the maximum; a hovering X500 needs 0.59
+LIFT_THRUST = 0.6  # of a hover's, as the other thrusts
 LIFT_HEIGHT = 0.2  # [m] above where it stood
 LIFT_CLIMB = 0.3  # [m/s]
 LIFT_TIME_US = 80_000
-LAND_THRUST = 0.3
+LAND_THRUST = 0.5
 LAND_SINK = 0.3  # [m/s] either way
 LAND_DRIFT = 1.0  # [m/s]
 LAND_TIME_US = 1_000_000
-TOUCH_THRUST = 0.5
+TOUCH_THRUST = 0.85
 TOUCH_SINK = 0.1  # [m/s] either way; every descent is asked to be faster
 TOUCH_TIME_US = 400_000
 
 
 @dataclass(slots=True)
 class LandDetector:
-    """Debounces the transitions; `airborne` is the answer, and `touching` says that the ground is probably there."""
+    """Debounces the transitions; `airborne` is the answer, and `touching` says that the ground is probably there.
 
+    `hover` is the thrust of a hover, as a share of the maximum: what a thrust means depends on the airframe.
+    """
+
+    hover: float
     airborne: bool = False
     touching: bool = False
     _still_since_us: int | None = None
@@ -48,7 +52,7 @@ class LandDetector:
         sinking : whether the loops are asked to sink.
         """
         z, vn, ve, vd = glance.z, glance.vx, glance.vy, glance.vz
-        thrust = glance.thrust if armed else 0.0
+        thrust = glance.thrust / self.hover if armed else 0.0
         slow = LAND_SINK if self.touching else TOUCH_SINK  # letting go shakes the feet a little
         resting = thrust < TOUCH_THRUST and abs(vd) < slow and math.hypot(vn, ve) < LAND_DRIFT
         if not (self.airborne and sinking and resting):

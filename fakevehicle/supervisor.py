@@ -15,7 +15,7 @@ from fakevehicle import course, failsafes, fence, mission_runner, navigator
 from fakevehicle.failsafes import EVENTS, Action, Failsafes, Trigger, Tripped, battery_triggers
 from fakevehicle.fence import FenceMonitor
 from fakevehicle.guidance import asks_to_climb, asks_to_sink, completed
-from fakevehicle.landing import LandDetector
+from fakevehicle.landing import TOUCH_THRUST, LandDetector
 from fakevehicle.mission_runner import MissionRunner
 from fakevehicle.modes import TRANSITIONS, Conditions, Event, Mode, Refusal, Special, refusal
 from fakevehicle.navigator import ARRIVED, Navigator
@@ -55,6 +55,13 @@ class Home:
 class Supervisor:
     """Mode, arming and landing of one vehicle.
 
+    Parameters
+    ----------
+    parameters : the vehicle's.
+    store : the plans that are loaded.
+    places : turns places into points.
+    hover : collective thrust of a hover, 0..1 of the maximum.
+
     Attributes
     ----------
     mode : what is flown.
@@ -67,7 +74,7 @@ class Supervisor:
     navigator, fence : where automatic modes fly, and where nobody may.
     """
 
-    def __init__(self, parameters: ParameterSet, store: PlanStore, places: Places) -> None:
+    def __init__(self, parameters: ParameterSet, store: PlanStore, places: Places, hover: float) -> None:
         self._parameters = parameters
         self._store = store
         self.navigator = Navigator(store, parameters, places)
@@ -83,7 +90,8 @@ class Supervisor:
         self.entered = 0
         self.remaining = 1.0
         self._glance: Glance | None = None
-        self._ground = LandDetector()
+        self._hover = hover
+        self._ground = LandDetector(hover)
         self._flown = False  # since it was armed
         self._changed_us = 0  # when it was armed or last stood down
         self._asked: Setpoint | None = None  # newest OFFBOARD setpoint
@@ -282,8 +290,10 @@ class Supervisor:
 
     def _sinking(self, glance: Glance) -> bool:
         """Whether what is flown now leads downwards."""
-        if self.mode is Mode.OFFBOARD:
-            return self._asked is not None and asks_to_sink(self._asked, glance.z)
+        asked = self._asked
+        if self.mode is Mode.OFFBOARD and asked is not None:
+            by_thrust = not math.isnan(asked.thrust)
+            return asked.thrust < TOUCH_THRUST * self._hover if by_thrust else asks_to_sink(asked, glance.z)
         return self.landing
 
     def _triggers(self, now_us: int, glance: Glance) -> list[Trigger]:

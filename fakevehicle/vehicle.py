@@ -121,8 +121,9 @@ class Vehicle:
         flavour = self._flavour = flavour_of(config.autopilot)
         overrides = {"MAV_SYS_ID": config.system_id, **flavour.defaults, **(parameters or {})}
         self.parameters = ParameterSet(_distinct((*PARAMETERS, *flavour.parameters)), overrides)
+        airframe = load_airframe(config.airframe)
         self._stack = FlightStack(
-            airframe=load_airframe(config.airframe),
+            airframe=airframe,
             parameters=self.parameters,
             home=config.home,
             heading=config.heading,
@@ -134,7 +135,8 @@ class Vehicle:
         )
         self._places = Places(self._origin, config.home)
         store = PlanStore()
-        self._supervisor = Supervisor(self.parameters, store, self._places)
+        hover = (airframe.hover_speed / airframe.max_rotor_speed) ** 2
+        self._supervisor = Supervisor(self.parameters, store, self._places, hover)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
         self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
         self._streams = Streams(self._outbox, config.links, flavour.rates)

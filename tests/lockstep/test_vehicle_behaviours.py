@@ -239,3 +239,18 @@ def test_health_is_ok_within_twenty_seconds_of_the_start() -> None:
     pilot = Pilot(Vehicle(VehicleConfig(links=(LinkConfig("onboard"),), seed=32)))
     pilot.tick(1)
     pilot.until(lambda: healthy(pilot), 20)
+
+
+@pytest.mark.parametrize("airframe", ["crazyflie", "iris"])
+def test_every_shipped_airframe_takes_off_goes_somewhere_and_knows_that_it_has_landed(airframe: str) -> None:
+    pilot = Pilot(Vehicle(VehicleConfig(airframe=airframe, links=(LinkConfig("onboard"),), seed=33)))
+    pilot.until(lambda: pilot.vehicle.flying.why_not_armable(pilot.now_us) is None, 20)
+    assert pilot.command(400, 1) == ACCEPTED
+    assert pilot.command(22, NAN, NAN, NAN, NAN, NAN, NAN, NAN) == ACCEPTED
+    pilot.until(lambda: pilot.mode == HOLD, 15)
+    goto(pilot, 3.0, 2.0, 3.0)
+    pilot.run(6.0)
+    assert math.dist(truth_n(pilot)[:2], (3.0, 2.0)) < 1.5
+    assert pilot.command(21) == ACCEPTED
+    pilot.until(lambda: pilot.vehicle.truth.on_ground, 20)
+    pilot.until(lambda: not pilot.armed, 5)

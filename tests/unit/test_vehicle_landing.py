@@ -16,7 +16,7 @@ class Tale:
     """A detector that flies at 5 m, and what is told to it fifty times a second."""
 
     def __init__(self) -> None:
-        self.detector = LandDetector(airborne=True)
+        self.detector = LandDetector(hover=0.59, airborne=True)
         self.now_us = 0
 
     def tell(self, seconds: float, sink: float, thrust: float, sinking: bool = True, drift: float = 0.0) -> bool:
