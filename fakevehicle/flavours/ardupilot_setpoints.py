@@ -1,7 +1,7 @@
 """Setpoints in GUIDED: read as ArduCopter reads them, flown by the supervisor, and carried on while the next is late.
 
-They are flown in GUIDED only and after the takeoff; what is not flown is dropped, with a text at most once a second
-(ArduCopter drops in silence). What cannot be read is a stop.
+They are flown in GUIDED only, and once the takeoff has reached its height; on the ground and in other modes they are
+dropped, with a text at most once a second (ArduCopter drops in silence). What cannot be read is a stop.
 """
 
 from __future__ import annotations
@@ -158,8 +158,8 @@ class GuidedSetpoints(Service):
         if self._flavour.number != GUIDED or s.mode is not Mode.GUIDED:
             self._refuse("the mode is not GUIDED", now_us)
             return False
-        if not s.airborne or s.taking_off:
-            self._refuse("not before the takeoff is done", now_us)
+        if not s.airborne:
+            self._refuse("not on the ground, take off first", now_us)
             return False
         return True
 

@@ -137,6 +137,19 @@ def test_a_position_is_flown_to_and_never_times_out(pilot: Pilot) -> None:
     assert mode(pilot) == GUIDED
 
 
+def test_a_position_that_comes_during_the_takeoff_is_flown_to_after_it(pilot: Pilot) -> None:
+    assert pilot.command(_m.MAV_CMD_DO_SET_MODE, 1, GUIDED) == ACCEPTED
+    assert pilot.command(_m.MAV_CMD_COMPONENT_ARM_DISARM, 1) == ACCEPTED
+    assert pilot.command(_m.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 5) == ACCEPTED
+    pilot.send(local(0xDF8, 7, 7, -5))  # still on the ground: dropped
+    pilot.until(lambda: pilot.vehicle.truth.position_n[2] < -2.0, 10)
+    pilot.send(local(0xDF8, 3, 0, -4))
+    pilot.run(1.0)
+    assert abs(float(pilot.vehicle.truth.position_n[0])) < 0.2
+    pilot.run(15.0)
+    assert pilot.vehicle.truth.position_n.tolist() == pytest.approx([3, 0, -4], abs=0.1)
+
+
 def test_a_velocity_is_flown_for_three_seconds_and_ends_in_a_stop(pilot: Pilot) -> None:
     fly(pilot)
     pilot.send(local(0xDC7, 0, 0, 0, (1, 0, 0)))
