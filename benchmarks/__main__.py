@@ -14,6 +14,7 @@ from benchmarks import (
     bench_search,
     bench_simulate,
     bench_timing,
+    bench_vehicle,
 )
 
 
@@ -30,6 +31,7 @@ def main() -> None:
     bench_estimator.main()
     bench_simulate.main()
     bench_physics.main()
+    bench_vehicle.main()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,147 @@
+"""CPU time of the simulated vehicle: `python -m benchmarks.bench_vehicle [seconds]`.
+
+Everything is measured as CPU time of this process for one simulated second, hovering in HOLD after a takeoff; the least
+of many windows of one second stands beside the median, since what else the machine does can only add to it. The last
+row runs against real sockets and the clock, and is CPU time over wall time.
+"""
+
+import statistics
+import sys
+import time
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from fakevehicle.airframe import load_airframe
+from fakevehicle.config import LinkConfig, Profile, VehicleConfig, zurich
+from fakevehicle.driver import LinkPlan, Seat, open_links, run
+from fakevehicle.flight import PARAMETERS, FlightStack
+from fakevehicle.params import ParameterSet
+from fakevehicle.vehicle import TICK_US, Vehicle
+from fakevehicle.vocabulary import Setpoint
+from wire.datagram import Datagram
+from wire.dialect import mavlink
+from wire.endpoint import Endpoint
+
+TICKS_A_SECOND = 1_000_000 // TICK_US
+HUNDRED: Mapping[int, float] = {
+    mavlink.MAVLINK_MSG_ID_ATTITUDE: 30.0,
+    mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED: 20.0,
+    mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 18.0,
+}
+"""Rates that make a ground station's link carry a hundred messages a second [Hz]."""
+
+
+class Peer:
+    """Sends commands into a vehicle's link and steps it."""
+
+    def __init__(self, vehicle: Vehicle, link: str) -> None:
+        self.vehicle, self.link, self.now_us = vehicle, link, 0
+        self._mavlink = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
+
+    def command(self, number: int, *params: float) -> None:
+        """One COMMAND_LONG in one tick; it must be accepted."""
+        values = [*params, *[0.0] * (7 - len(params))]
+        message = mavlink.MAVLink_command_long_message(1, 1, number, 0, *values)
+        before = self.vehicle.counters.rejected_commands
+        inputs = [Datagram(self.link, message.pack(self._mavlink), ("127.0.0.1", 50000))]
+        self.vehicle.step(self.now_us, inputs)
+        self.now_us += TICK_US
+        if self.vehicle.counters.rejected_commands != before:
+            raise RuntimeError(f"command {number} was refused")
+
+    def seconds(self, count: float) -> None:
+        """Step through simulated time with nothing coming in."""
+        for _ in range(round(count * TICKS_A_SECOND)):
+            self.vehicle.step(self.now_us, [])
+            self.now_us += TICK_US
+
+
+def hovering(profile: Profile, rates: Mapping[int, float]) -> Peer:
+    """A vehicle with one link that has taken off and holds."""
+    peer = Peer(Vehicle(VehicleConfig(links=(LinkConfig("it", profile),))), "it")
+    peer.seconds(8.0)
+    peer.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1.0)
+    peer.command(mavlink.MAV_CMD_NAV_TAKEOFF, *[float("nan")] * 7)
+    for number, rate in rates.items():
+        peer.command(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, number, 1e6 / rate)
+    peer.seconds(10.0)
+    return peer
+
+
+def windows(second: Callable[[], None], count: int) -> list[float]:
+    """CPU times [ms] of that many simulated seconds."""
+    found = []
+    for _ in range(count):
+        begin = time.process_time()
+        second()
+        found.append(1e3 * (time.process_time() - begin))
+    return found
+
+
+def stack_alone(count: int, gust: float) -> list[float]:
+    """Physics, sensors, estimator and loops, without MAVLink."""
+    stack = FlightStack(
+        airframe=load_airframe("x500"),
+        parameters=ParameterSet(PARAMETERS, {"SIM_WIND_GUST": gust}),
+        home=zurich(),
+        heading=0.0,
+        wind_n=np.zeros(3),
+        seed=1,
+    )
+    now_us = 0
+
+    def second(setpoint: Setpoint | None) -> None:
+        nonlocal now_us
+        for _ in range(TICKS_A_SECOND):
+            now_us += TICK_US
+            stack.tick(now_us, setpoint, setpoint is not None)
+
+    for _ in range(8):
+        second(None)
+    setpoint = Setpoint(stack.estimate.position_n - [0.0, 0.0, 5.0], np.zeros(3), np.zeros(3), 0.0)
+    for _ in range(5):
+        second(setpoint)
+    return windows(lambda: second(setpoint), count)
+
+
+def real_time(seconds: float) -> tuple[float, int]:
+    """CPU over wall time of a vehicle that streams to a companion which is not there, and ticks that were late."""
+    plan = LinkPlan("onboard", "onboard", Endpoint("udpout", "127.0.0.1", 49999))
+    vehicle = Vehicle(VehicleConfig(links=(LinkConfig("onboard", "onboard"),)))
+    links = open_links([plan])
+    began, cpu = time.monotonic(), time.process_time()
+    try:
+        counters = run(
+            [Seat(vehicle, links, lambda _: None)], speed=1.0, stopped=lambda: time.monotonic() - began > seconds
+        )
+    finally:
+        for link in links.values():
+            link.close()
+    return (time.process_time() - cpu) / (time.monotonic() - began), counters.late
+
+
+def main() -> None:
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 40
+    print(
+        "\n## The vehicle, CPU ms for a simulated second\n\n| case | messages/s | least | median |\n|---|---|---|---|"
+    )
+    for name, profile, rates in (
+        ("whole vehicle, a ground station's link", "gcs", {}),
+        ("whole vehicle, 100 msg/s", "gcs", HUNDRED),
+        ("whole vehicle, a companion's link", "onboard", {}),
+    ):
+        peer = hovering(profile, rates)  # type: ignore[arg-type]
+        before = peer.vehicle.counters.sent
+        found = windows(lambda p=peer: p.seconds(1.0), count)  # type: ignore[misc]
+        sent = (peer.vehicle.counters.sent - before) / count
+        print(f"| {name} | {sent:.0f} | {min(found):.2f} | {statistics.median(found):.2f} |")
+    for name, gust in (("flight stack alone", 0.0), ("flight stack alone, gusts of 8 m/s", 8.0)):
+        found = stack_alone(count, gust)
+        print(f"| {name} | 0 | {min(found):.2f} | {statistics.median(found):.2f} |")
+    share, late = real_time(10.0)
+    print(f"\nIn real time, standing, a companion's link: {100 * share:.1f} % of a core, {late} ticks late in 10 s")
+
+
+if __name__ == "__main__":
+    main()
