@@ -10,6 +10,7 @@ import random
 import struct
 import sys
 import tracemalloc
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -17,7 +18,7 @@ from flight_double import PointMass
 from vehicle_pilot import Pilot, position
 
 import fakevehicle.vehicle
-from fakevehicle.config import LinkConfig, VehicleConfig
+from fakevehicle.config import Autopilot, LinkConfig, VehicleConfig
 from fakevehicle.files import MemoryFiles
 from fakevehicle.vehicle import Vehicle
 from wire.datagram import Datagram
@@ -37,6 +38,12 @@ ASKS = {
     m.MAVLINK_MSG_ID_SET_MODE,
     m.MAVLINK_MSG_ID_PARAM_SET,
 }
+COMMANDS: list[tuple[int, tuple[float, ...]]] = [
+    *((number, (1, 0, 0, 0, 0, 0, 5)) for number in (400, 22, 21, 20, 300, 178, 179, 192, 420, 410, 511, 512, 510)),
+    (176, (1, 6, 0, 0, 0, 0, 0)),
+    (176, (1, 4, 3, 0, 0, 0, 0)),
+    (246, (1, 0, 0, 0, 0, 0, 0)),
+]
 WORD = struct.Struct("<HBBBBBBI")
 
 
@@ -87,6 +94,21 @@ class Flood:
                 m.MAVLink_param_set_message(1, 1, b"MPC_XY_CRUISE", 1.0, 9),
                 m.MAVLink_mission_clear_all_message(1, 1, 255),
                 m.MAVLink_mission_count_message(1, 1, 3, 0),
+                *(m.MAVLink_mission_count_message(1, 1, 2, kind) for kind in (0, 1, 2)),
+                *(
+                    m.MAVLink_mission_item_int_message(
+                        1, 1, seq, 3, c, 0, 1, 1, 2, 3, 4, 473977420, 85455940, 5.0, kind
+                    )
+                    for seq, c, kind in ((0, 22, 0), (1, 16, 0), (0, 5001, 1), (1, 5004, 1), (0, 5100, 2))
+                ),
+                m.MAVLink_mission_item_message(1, 1, 0, 0, 16, 2, 1, 0, 0, 0, 0, 47.4, 8.5, 500.0),
+                m.MAVLink_mission_set_current_message(1, 1, 1),
+                *(m.MAVLink_command_long_message(1, 1, c, 0, *p) for c, p in COMMANDS),
+                m.MAVLink_set_attitude_target_message(0, 1, 1, 0, [1, 0, 0, 0], 0, 0, 0, 0.6),
+                m.MAVLink_set_position_target_global_int_message(
+                    0, 1, 1, 5, 0x9F8, 473977420, 85455940, 490.0, 0, 0, 0, 0, 0, 0, 0, 0
+                ),
+                position(1, 2, -3),
             )
         ]
         self.kinds = [kind for _, kind in sorted(m.mavlink_map.items())]
@@ -104,9 +126,20 @@ class Flood:
             cls = self.random.choice(self.kinds)
             raw = self.random.randbytes(cls.unpacker.size)
             if cls.id in ASKS or cls.id in SETPOINTS or cls.id in PLANS:
-                raw = foreign(cls, raw)
+                raw = addressed(cls, raw, 77)
             return self.whole(cls, raw)
-        data = self.random.choice(self.requests)
+        return self.spoilt(self.random.choice(self.requests))
+
+    def order(self) -> bytes:
+        """A whole packet for us that asks for a change, or nearly; now and then one that is left as it was."""
+        if self.random.random() < 0.2:
+            cls = self.random.choice(self.kinds)
+            return self.whole(cls, addressed(cls, self.random.randbytes(cls.unpacker.size), 1))
+        data = self.random.choice(self.orders)
+        return data if self.random.random() < 0.2 else self.spoilt(data)
+
+    def spoilt(self, data: bytes) -> bytes:
+        """The same packet with one to three bytes of its payload changed, whole."""
         number = data[7] | data[8] << 8 | data[9] << 16
         cls = m.mavlink_map[number]
         raw = bytearray(data[10:-2].ljust(cls.unpacker.size, b"\0"))
@@ -142,8 +175,8 @@ PLANS = {
 }
 
 
-def foreign(cls: Any, raw: bytes) -> bytes:
-    """The same message for system 77."""
+def addressed(cls: Any, raw: bytes, system: int) -> bytes:
+    """The same message for a system and its autopilot."""
     out = bytearray(raw)
     sizes = {"char": 1, "uint8_t": 1, "int8_t": 1, "uint16_t": 2, "int16_t": 2, "uint32_t": 4, "int32_t": 4}
     sizes |= {"float": 4, "double": 8, "uint64_t": 8, "int64_t": 8}
@@ -151,7 +184,9 @@ def foreign(cls: Any, raw: bytes) -> bytes:
     at = 0
     for i, name in enumerate(cls.ordered_fieldnames):
         if name in ("target_system", "target"):  # MANUAL_CONTROL calls it target
-            out[at] = 77
+            out[at] = system
+        if name == "target_component":
+            out[at] = 1
         at += sizes[types[name]] * max(1, cls.array_lengths[i])
     return bytes(out)
 
@@ -167,39 +202,64 @@ def state(pilot: Pilot) -> tuple[Any, ...]:
     )
 
 
-@pytest.mark.slow
-def test_200_000_datagrams_change_nothing_and_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
-    pilot = Pilot(Vehicle(VehicleConfig(links=(LinkConfig("onboard"),)), files=MemoryFiles({"a.mcap": bytes(60_000)})))
-    pilot.run(1.0)
-    pilot.send(position(0, 0, -3))
-    assert (pilot.command(176, 1, 6), pilot.command(400, 1)) == (0, 0)
-    pilot.fly(3.0, position(0, 0, -3))
-    before = state(pilot)
-    flood, vehicle, now_us = Flood(pilot, 1), pilot.vehicle, pilot.now_us
-    blocks = 0
+def flooded(pilot: Pilot, flood: "Flood", ticks: int, each: Callable[[], bytes], keep: Callable[[], bytes]) -> None:
+    """Run the vehicle under `EACH` datagrams a tick and hold what they leave behind against the bounds."""
+    vehicle, now_us, blocks = pilot.vehicle, pilot.now_us, 0
     try:
-        for tick in range(TICKS):
+        for tick in range(ticks):
             peers = ("127.0.0.1", flood.random.randrange(1, 65_536)), ("127.0.0.1", 9)
-            inputs = [Datagram("onboard", flood.next(), flood.random.choice(peers)) for _ in range(EACH)]
+            inputs = [Datagram("onboard", each(), flood.random.choice(peers)) for _ in range(EACH)]
             if tick % 10 == 0:
-                inputs.append(Datagram("onboard", pilot.bytes_of(position(0, 0, -3)), ("127.0.0.1", 9)))
+                inputs.append(Datagram("onboard", keep(), ("127.0.0.1", 9)))
             vehicle.step(now_us, inputs)
             now_us += vehicle.TICK_US
-            if tick == TICKS // 2:
+            if tick == ticks // 2:
                 gc.collect()
                 blocks = sys.getallocatedblocks()
-            if tick == TICKS * 9 // 10:
+            if tick == ticks * 9 // 10:
                 tracemalloc.start()  # it makes everything five times slower
         gc.collect()
         assert tracemalloc.get_traced_memory()[0] < GROWTH
     finally:
         tracemalloc.stop()
     assert sys.getallocatedblocks() - blocks < BLOCKS
-    assert state(pilot) == before
     pilot.now_us = now_us
     pilot.send(m.MAVLink_ping_message(1, 2, 0, 0))
     assert [g for g in pilot.tick() if g.get_type() == "PING"]  # it still answers
-    counters = vehicle.counters
+
+
+def vehicle_with_a_log(autopilot: Autopilot) -> Vehicle:
+    config = VehicleConfig(links=(LinkConfig("onboard"),), autopilot=autopilot)
+    return Vehicle(config, files=MemoryFiles({"a.mcap": bytes(60_000)}))
+
+
+@pytest.mark.slow
+def test_200_000_datagrams_change_nothing_and_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
+    pilot = Pilot(vehicle_with_a_log("px4"))
+    pilot.run(1.0)
+    pilot.send(position(0, 0, -3))
+    assert (pilot.command(176, 1, 6), pilot.command(400, 1)) == (0, 0)
+    pilot.fly(3.0, position(0, 0, -3))
+    before, flood = state(pilot), Flood(pilot, 1)
+    flooded(pilot, flood, TICKS, flood.next, lambda: pilot.bytes_of(position(0, 0, -3)))
+    assert state(pilot) == before
+    counters = pilot.vehicle.counters
     assert counters.packets > TICKS * EACH // 4
     assert counters.bad_crc > TICKS * EACH // 8
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("autopilot", ["px4", "ardupilot"])
+def test_orders_spoilt_in_a_field_are_answered_or_refused_but_never_fatal(
+    monkeypatch: pytest.MonkeyPatch, autopilot: Autopilot
+) -> None:
+    """Whole, for us, and asking for changes: whatever they do, the vehicle lives, answers and does not grow."""
+    monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
+    pilot = Pilot(vehicle_with_a_log(autopilot))
+    pilot.run(1.0)
+    flood = Flood(pilot, 2)
+    flooded(pilot, flood, 1_500, flood.order, lambda: pilot.bytes_of(position(0, 0, -3)))
+    assert pilot.vehicle.counters.rejected_commands > 100
+    if autopilot == "px4":  # whose parameter is among the orders
+        assert pilot.vehicle.parameters.version > 50
