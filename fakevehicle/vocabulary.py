@@ -108,6 +108,8 @@ class Estimate:
     altitude_valid: bool
     origin: Geodetic | None  # None until the first fix
     resets: Resets = field(default_factory=Resets)
+    climb_valid: bool = False  # the vertical part of the velocity, where the rest is not
+    silent: frozenset[str] = frozenset()  # of "gps", "baro", "mag", "imu": not heard, or not believed, lately
 
 
 @dataclass(frozen=True, slots=True)

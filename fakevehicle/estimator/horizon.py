@@ -53,6 +53,7 @@ FIELD_TOLERANCE, FIELD_SHARE = 0.1, 0.05
 reset; share of a new sample in the mean."""
 HANDOVER_US = 300_000
 """GPS's height takes over when the barometer has not been accepted for this long [us]."""
+_NONE: frozenset[str] = frozenset()
 _HORIZONTAL, _DOWN, _VELOCITY, _YAW = (6, 7), (8,), (3, 4, 5), (2,)
 
 
@@ -400,6 +401,10 @@ class Estimator:
             altitude_valid=valid.altitude,
             origin=self.origin,
             resets=self.resets,
+            climb_valid=valid.climb,
+            silent=_NONE
+            if self.filter is None
+            else frozenset(name for name in ("gps", "baro", "mag", "imu") if not getattr(valid, name)),
         )
 
 

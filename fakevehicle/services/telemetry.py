@@ -62,6 +62,9 @@ _ODOMETRY = Layout(mavlink.MAVLink_odometry_message)
 _HIL_STATE_QUATERNION = Layout(mavlink.MAVLink_hil_state_quaternion_message)
 """What goes out thirty times a second and more."""
 
+RANGE_US = 500_000
+"""Height above ground is known for this long after the rangefinder's last word [us]."""
+
 
 class Telemetry(Service):
     """Builds messages from the vehicle's parts.
@@ -132,10 +135,14 @@ class Telemetry(Service):
         when its health goes, whether it is there or not.
         """
         e, s, b = self.estimate, self._supervisor, self._battery
-        health = _INERTIAL | mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER
-        health |= mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
-        health |= mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
-        if self._stack.gps is not None:
+        health = mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER
+        if "imu" not in e.silent:
+            health |= _INERTIAL
+        if "baro" not in e.silent:
+            health |= mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
+        if "mag" not in e.silent:
+            health |= mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
+        if self._stack.gps is not None and "gps" not in e.silent:
             health |= mavlink.MAV_SYS_STATUS_SENSOR_GPS
         if e.attitude_valid:
             health |= mavlink.MAV_SYS_STATUS_AHRS
@@ -218,7 +225,7 @@ class Telemetry(Service):
             *_upper_triangle(v1, v2, v3, NAN, NAN, NAN),
             mavlink.MAV_FRAME_LOCAL_NED,
             mavlink.MAV_FRAME_LOCAL_NED,
-            0,
+            e.resets.count & 0xFF,
             mavlink.MAV_ESTIMATOR_TYPE_AUTOPILOT,
             0,
         )
@@ -354,10 +361,17 @@ class Telemetry(Service):
         """Flags of what the filter knows, and its innovation test ratios (above 1: rejected)."""
         e = self.estimate
         flags = 0
+        if e.velocity_valid or e.climb_valid:
+            flags |= mavlink.ESTIMATOR_VELOCITY_VERT
+        if "imu" in e.silent:
+            flags |= mavlink.ESTIMATOR_ACCEL_ERROR
+        below = self._stack.range
+        if below is not None and self.now_us - below.now_us < RANGE_US and not math.isnan(below.distance):
+            flags |= mavlink.ESTIMATOR_POS_VERT_AGL
         if e.attitude_valid:
             flags |= mavlink.ESTIMATOR_ATTITUDE
         if e.velocity_valid:
-            flags |= mavlink.ESTIMATOR_VELOCITY_HORIZ | mavlink.ESTIMATOR_VELOCITY_VERT
+            flags |= mavlink.ESTIMATOR_VELOCITY_HORIZ
         if e.position_valid:
             flags |= mavlink.ESTIMATOR_POS_HORIZ_REL | mavlink.ESTIMATOR_POS_HORIZ_ABS
             flags |= mavlink.ESTIMATOR_PRED_POS_HORIZ_REL | mavlink.ESTIMATOR_PRED_POS_HORIZ_ABS
