@@ -22,6 +22,7 @@ import math
 import numpy as np
 
 from fakevehicle.control.allocation import allocate
+from fakevehicle.control.attitude import follow_attitude
 from fakevehicle.control.fopid_tid import fopid_step
 from fakevehicle.jit import kernel
 
@@ -30,7 +31,7 @@ VELOCITY, RATE = 0, 3
 
 SETPOINT = 19
 """A setpoint as numbers: position 0:3, velocity 3:6, acceleration 6:9, yaw 9, yaw rate 10, attitude 11:15 (wxyz), body
-rate 15:18, thrust 18 (0..1 of the maximum); NaN is "not asked for". The last eight are not followed yet."""
+rate 15:18, thrust 18 (0..1 of the maximum); NaN is "not asked for". With a thrust `attitude` follows the last eight."""
 NAVIGATION = 16
 """An estimate as numbers: position 0:3, velocity 3:6, q_nb 6:10, omega_b 10:13, acceleration 13:16."""
 FADE, RETURN = 1.5, 1.0
@@ -89,6 +90,9 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
     bank, coefficients, states : of a `fopid_tid.LoopBank` with three velocity and three rate loops.
     period : [s].
     """
+    if not math.isnan(setpoint[18]):
+        follow_attitude(setpoint, nav, gains, status)
+        return
     g = body.gravity
     acc0, acc1, acc2 = 0.0, 0.0, 0.0
     sp, shift, asked, ahead = status.followed, status.shift, status.asked, status.ahead

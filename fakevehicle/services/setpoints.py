@@ -1,4 +1,4 @@
-"""OFFBOARD setpoints from the wire: SET_POSITION_TARGET_LOCAL_NED, SET_POSITION_TARGET_GLOBAL_INT.
+"""OFFBOARD setpoints from the wire: the local, the global and the attitude one of MAVLink's SET_..._TARGET messages.
 
 Bits of `type_mask` mean *ignore*, one an axis; NaN means the same. LOCAL_NED is the estimator's frame. In BODY_NED the
 velocity and acceleration are turned by the heading at the time of arrival (the roll and pitch of the vehicle do not
@@ -21,6 +21,7 @@ from fakevehicle.vocabulary import FloatArray, Geodetic, Setpoint
 from wire.dialect import mavlink
 
 FORCE = 0x200
+IGNORE_THRUST, IGNORE_ATTITUDE = 0x40, 0x80
 IGNORE_YAW = 0x400
 IGNORE_YAW_RATE = 0x800
 QUIET_US = 1_000_000
@@ -86,9 +87,29 @@ class Setpoints(Service):
         position_n[2] = (float(home.position_n[2]) if relative else origin.altitude) - m.alt
         self._take(m, position_n, 0.0, now_us)
 
-    def attitude(self, _sender: Sender, _message: Message, now_us: int) -> None:
-        """SET_ATTITUDE_TARGET: not flown yet."""
-        self._refuse("attitude setpoints are not supported", now_us)
+    def attitude(self, _sender: Sender, message: Message, now_us: int) -> None:
+        """SET_ATTITUDE_TARGET: an attitude, body rates or both, and the collective thrust, 0..1 of the maximum.
+
+        A rate that is not given is zero where rates alone are flown. Without a thrust nothing can be flown.
+        """
+        m = message
+        q_nb, rate_b = np.array(m.q), np.array([m.body_roll_rate, m.body_pitch_rate, m.body_yaw_rate])
+        rate_b = _masked(rate_b, m.type_mask)
+        if m.type_mask & IGNORE_ATTITUDE or np.isnan(q_nb).any():
+            q_nb[:] = math.nan
+            if np.isnan(rate_b).all():
+                self._refuse("it asks for nothing", now_us)
+                return
+            rate_b = np.nan_to_num(rate_b, nan=0.0)
+        norm = float(np.linalg.norm(q_nb))
+        if norm < SMALLEST_NORM or math.isinf(norm) or bool((np.abs(rate_b) > LARGEST_RATE).any()):
+            self._refuse("that attitude or rate cannot be", now_us)
+            return
+        if m.type_mask & IGNORE_THRUST or not 0.0 <= m.thrust <= 1.0:
+            self._refuse("a thrust of 0 to 1 is needed", now_us)
+            return
+        setpoint = Setpoint(attitude_q_nb=q_nb / norm, rate_b=rate_b, thrust=float(m.thrust))
+        self._supervisor.offboard(now_us, setpoint)
 
     def _take(self, m: Message, position_n: FloatArray, turn: float, now_us: int) -> None:
         mask = m.type_mask
@@ -116,6 +137,10 @@ class Setpoints(Service):
             self._warn(f"Setpoint refused: {reason}")
 
 
+SMALLEST_NORM = 0.1
+"""A quaternion shorter than this is none."""
+LARGEST_RATE = 30.0
+"""No body rate is larger than this [rad/s]."""
 LARGEST = 1e5
 """Nothing in a setpoint is larger than this [m, m/s, m/s^2, rad]."""
 

@@ -254,3 +254,79 @@ def test_every_shipped_airframe_takes_off_goes_somewhere_and_knows_that_it_has_l
     assert pilot.command(21) == ACCEPTED
     pilot.until(lambda: pilot.vehicle.truth.on_ground, 20)
     pilot.until(lambda: not pilot.armed, 5)
+
+
+# Attitude offboard
+
+
+def tilted(
+    roll: float, pitch: float, yaw: float, thrust: float, *, rates: tuple[float, float, float] | None = None
+) -> Any:
+    """SET_ATTITUDE_TARGET from angles [rad], or from body rates alone [rad/s]."""
+    cr, sr = math.cos(roll / 2), math.sin(roll / 2)
+    cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
+    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+    q = [
+        cr * cp * cy + sr * sp * sy,
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    ]
+    mask = 0b111 if rates is None else 0b1000_0000
+    return m.MAVLink_set_attitude_target_message(0, 1, 1, mask, q, *(rates or (0.0, 0.0, 0.0)), thrust)
+
+
+def angles(pilot: Pilot) -> FloatArray:
+    """Truth's roll, pitch and yaw [rad]."""
+    w, x, y, z = pilot.vehicle.truth.q_nb.tolist()
+    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    return np.array([roll, math.asin(2 * (w * y - z * x)), math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))])
+
+
+def test_an_attitude_is_flown_as_it_is_asked_for_and_position_takes_over_again() -> None:
+    pilot = hovering(34, MIS_TAKEOFF_ALT=20.0)
+    pilot.send(tilted(0.1, -0.15, 0.5, 0.6))
+    assert pilot.command(176, 1, 6) == ACCEPTED
+    pilot.fly(2.0, tilted(0.1, -0.15, 0.5, 0.6))
+    np.testing.assert_allclose(angles(pilot), [0.1, -0.15, 0.5], atol=0.03)
+    target = pilot.last("ATTITUDE_TARGET")
+    assert target.thrust == pytest.approx(0.6, abs=0.01)
+    assert pilot.vehicle.truth.velocity_n[0] > 1.0  # nose down, so forward
+    pilot.fly(8.0, position(0, 0, -20))
+    assert math.dist(here(pilot), (0.0, 0.0, -20.0)) < 1.0
+    assert pilot.mode == OFFBOARD
+
+
+def test_body_rates_are_flown_as_they_are_asked_for() -> None:
+    pilot = hovering(35, MIS_TAKEOFF_ALT=20.0)
+    turning = tilted(0, 0, 0, 0.6, rates=(0.0, 0.0, 0.5))
+    pilot.send(turning)
+    assert pilot.command(176, 1, 6) == ACCEPTED
+    pilot.fly(1.0, turning)
+    begin = angles(pilot)[2]
+    pilot.fly(2.0, turning)
+    assert math.remainder(angles(pilot)[2] - begin, 2 * math.pi) == pytest.approx(1.0, abs=0.06)
+
+
+def test_a_stream_of_attitudes_that_stops_is_held() -> None:
+    pilot = hovering(36, MIS_TAKEOFF_ALT=10.0)
+    pilot.send(tilted(0, 0, 0, 0.6))
+    assert pilot.command(176, 1, 6) == ACCEPTED
+    pilot.fly(1.0, tilted(0, -0.1, 0, 0.6))
+    pilot.until(lambda: pilot.mode == HOLD, 1.2)
+    pilot.run(4.0)
+    assert np.linalg.norm(pilot.vehicle.truth.velocity_n) < 0.3
+
+
+def test_an_attitude_takes_off_and_lands_by_thrust_alone() -> None:
+    pilot = ready(37)
+    pilot.send(tilted(0, 0, 0, 0.1))
+    assert (pilot.command(176, 1, 6), pilot.command(400, 1)) == (ACCEPTED, ACCEPTED)
+    pilot.fly(1.5, tilted(0, 0, 0, 0.66))
+    assert pilot.vehicle.flying.airborne
+    for _ in range(40):
+        pilot.fly(0.5, tilted(0, 0, 0, 0.57 if truth_n(pilot)[2] < -1.0 and pilot.vehicle.flying.airborne else 0.45))
+        if not pilot.armed:
+            break
+    assert not pilot.armed
+    assert pilot.vehicle.truth.on_ground

@@ -492,6 +492,29 @@ def test_type_mask_bits_and_nan_mean_ignore_axis_by_axis(pilot: Pilot, message: 
     np.testing.assert_allclose([followed.yaw, followed.yaw_rate], [given.get("yaw", NAN), given.get("rate", NAN)])
 
 
+@pytest.mark.parametrize(
+    ("mask", "attitude", "rates"),
+    [
+        (0b111, [0.6, 0.0, 0.8, 0.0], [NAN, NAN, NAN]),
+        (0b000, [0.6, 0.0, 0.8, 0.0], [0.1, 0.2, 0.3]),
+        (0x80, [NAN] * 4, [0.1, 0.2, 0.3]),
+        (0x80 | 0b011, [NAN] * 4, [0.0, 0.0, 0.3]),
+    ],
+)
+def test_attitude_setpoints_say_what_to_ignore_too(
+    pilot: Pilot, mask: int, attitude: list[float], rates: list[float]
+) -> None:
+    airborne(pilot)
+    asked = m.MAVLink_set_attitude_target_message(0, 1, 1, mask, [1.2, 0.0, 1.6, 0.0], 0.1, 0.2, 0.3, 0.55)
+    pilot.send(asked)
+    assert pilot.command(176, 1, 6) == ACCEPTED
+    flown = point(pilot).setpoint
+    np.testing.assert_allclose(flown.attitude_q_nb, attitude, atol=1e-6)
+    np.testing.assert_allclose(flown.rate_b, rates, atol=1e-6)
+    assert flown.thrust == pytest.approx(0.55)
+    assert np.isnan(flown.position_n).all()
+
+
 def test_body_velocity_is_turned_by_the_heading(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
     pilot = Pilot(Vehicle(VehicleConfig(heading=math.pi / 2)))
@@ -521,7 +544,11 @@ def test_global_setpoints_are_above_sea_level_or_above_home(pilot: Pilot) -> Non
         (set_target(0xFFF), "nothing"),
         (set_target(0x9F8, x=math.inf), "infinite"),
         (set_target(0xE3F, afx=1.0), "forces"),
-        (m.MAVLink_set_attitude_target_message(0, 1, 1, 0, [1, 0, 0, 0], 0, 0, 0, 0.5), "attitude"),
+        (m.MAVLink_set_attitude_target_message(0, 1, 1, 0, [0, 0, 0, 0], 0, 0, 0, 0.5), "attitude"),
+        (m.MAVLink_set_attitude_target_message(0, 1, 1, 0, [1, 0, 0, 0], 99.0, 0, 0, 0.5), "rate"),
+        (m.MAVLink_set_attitude_target_message(0, 1, 1, 0, [1, 0, 0, 0], 0, 0, 0, 1.5), "thrust"),
+        (m.MAVLink_set_attitude_target_message(0, 1, 1, 0x40, [1, 0, 0, 0], 0, 0, 0, 0.5), "thrust"),
+        (m.MAVLink_set_attitude_target_message(0, 1, 1, 0x87, [1, 0, 0, 0], 0, 0, 0, 0.5), "nothing"),
     ],
 )
 def test_setpoints_that_cannot_be_flown_are_refused_once_a_second(pilot: Pilot, message: Any, word: str) -> None:
