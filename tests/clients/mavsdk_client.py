@@ -1,10 +1,12 @@
 """MAVSDK's asyncio API (package mavsdk-grpc) against the vehicle's process: both end with the test."""
 
 import asyncio
+import os
 import subprocess
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 import mavsdk_grpc
@@ -22,12 +24,16 @@ async def flown(*arguments: str) -> AsyncIterator[tuple[Any, VehicleProcess]]:
     MAVSDK's own starter would leave its server behind when a test is ended; so the server is started here.
     """
     port, grpc = free_port(), free_port()
-    with VehicleProcess("--connect", f"udpout:127.0.0.1:{port}", *arguments) as vehicle:
+    with (
+        TemporaryDirectory() as home,  # where it would remember what it has fetched
+        VehicleProcess("--connect", f"udpout:127.0.0.1:{port}", *arguments) as vehicle,
+    ):
         server = subprocess.Popen(
             [SERVER, "-p", str(grpc), f"udpin://127.0.0.1:{port}"],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
+            env={**os.environ, "HOME": home, "XDG_CACHE_HOME": home},
         )
         try:
             system = System(mavsdk_server_address="localhost", port=grpc)

@@ -1,6 +1,7 @@
 """MAVSDK's asyncio API flies the vehicle's process: what a user of `System()` does, from connecting to landing."""
 
 import asyncio
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ pytest.importorskip("mavsdk_grpc")
 
 from mavsdk_client import first, fly, last, ready, until
 from mavsdk_grpc.action import ActionError
+from mavsdk_grpc.component_metadata import MetadataType
 from mavsdk_grpc.ftp import FtpError
 from mavsdk_grpc.geofence import Circle, FenceType, GeofenceData, Point, Polygon
 from mavsdk_grpc.mission import MissionItem, MissionPlan
@@ -143,6 +145,19 @@ def test_files_are_listed_fetched_and_compared(tmp_path: Path) -> None:
             await last(ftp.download("log/none.mcap", str(tmp_path), False), 5)
         with pytest.raises(FtpError):
             await last(ftp.upload(str(tmp_path / "True/parameters.json"), "/log"), 5)
+
+    fly(story)
+
+
+def test_what_every_parameter_means_is_found_through_component_metadata() -> None:
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        metadata = system.component_metadata
+        await metadata.request_autopilot_component()
+        found = await until(metadata.metadata_available(), lambda update: update.type == MetadataType.PARAMETER, 15)
+        described = {p["name"]: p for p in json.loads(found.json_metadata)["parameters"]}
+        assert described["MPC_LAND_SPEED"]["units"] == "m/s"
+        everything = await system.param.get_all_params()
+        assert described.keys() == {p.name for p in everything.int_params + everything.float_params}
 
     fly(story)
 
