@@ -27,7 +27,6 @@ from fakevehicle.faults import Fault, FaultKind, FaultSchedule, Sensor
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.physics.wind import TURBULENCE, Gust, gust_table
 from fakevehicle.sensors import suite
-from fakevehicle.sensors.imu import IMU
 from fakevehicle.sensors.magnetometer import field_n
 from fakevehicle.sensors.obstacles import World
 from fakevehicle.sensors.suite import Sensors
@@ -105,12 +104,13 @@ class FlightStack:
         self._noise: FloatArray = np.zeros((BLOCK, tick.DRAWS))
         self._gust_noise: FloatArray = np.zeros((BLOCK, TURBULENCE))
         self._ticks = 0
-        self._body = airframe.record()
-        self._world = _start(airframe, heading, wind_n)
+        whole = np.zeros(1, tick.VEHICLE)
+        self._body, self._world, self._imu = whole["body"], whole["world"], whole["imu"]
+        self._body[:] = airframe.record()
+        self._world[:] = _start(airframe, heading, wind_n)
         self._x: FloatArray = self._world["x"][0]
         self._control = ControlTables(airframe, parameters)
         self._control.rest(heading)
-        self._imu = np.zeros(1, IMU)
         self._imu["gyro_bias"] = p["SIM_GYR_BIAS"] * self._rng.standard_normal(3)
         self._imu["accel_bias"] = p["SIM_ACC_BIAS"] * self._rng.standard_normal(3)
         self._sensors = Sensors(
@@ -132,20 +132,12 @@ class FlightStack:
         self._read_own_parameters()
         self._setpoint: FloatArray = self._world["setpoint"][0]
         self._thrust, self._effort = self._world["thrust"], self._world["effort"]
-        control = self._control
+        _share(whole, self._control, self._estimator)
         self._tables = (  # what `tick.advance` works on, all of it for the vehicle's whole life
             self._noise,
             self._gust_noise,
             self._gusts,
-            self._world,
-            self._body,
-            control.gains,
-            control.status,
-            control.bank.loops,
-            control.bank.coefficients,
-            control.bank.states,
-            self._imu,
-            self._estimator.predictor,
+            whole.view(np.float64),
             self._estimator.imu,
             self._estimator.ring,
         )
@@ -383,6 +375,17 @@ def _start(airframe: Airframe, heading: float, wind_n: FloatArray) -> np.ndarray
     speed = math.hypot(wind_n[0], wind_n[1])
     w["along"] = (wind_n[0] / speed, wind_n[1] / speed) if speed > 0.0 else (1.0, 0.0)
     return world
+
+
+def _share(whole: np.ndarray[Any, np.dtype[np.void]], control: ControlTables, estimator: Estimator) -> None:
+    """Move the tables of the loops and of the estimator's output into the (1,) record of `tick.VEHICLE`."""
+    bank = control.bank
+    whole["gains"], whole["status"], whole["predictor"] = control.gains, control.status, estimator.predictor
+    whole["loops"][0], whole["coefficients"][0], whole["states"][0] = bank.loops, bank.coefficients, bank.states
+    control.gains, control.status = whole["gains"], whole["status"]
+    bank.loops, bank.coefficients, bank.states = whole["loops"][0], whole["coefficients"][0], whole["states"][0]
+    estimator.predictor = whole["predictor"]
+    estimator.out, estimator.bias = estimator.predictor["out"][0], estimator.predictor["nominal"][0, 10:16]
 
 
 def _yaw(q_nb: FloatArray) -> float:

@@ -11,13 +11,16 @@ import math
 
 import numpy as np
 
-from fakevehicle.control.cascade import SETPOINT, outer_loops, rate_loop
-from fakevehicle.estimator.predictor import advance_output
+from fakevehicle.airframe import BODY
+from fakevehicle.control.cascade import GAINS, LOOPS, SETPOINT, outer_loops, rate_loop
+from fakevehicle.control.fopid_tid import LOOP
+from fakevehicle.control.fractional import SECTIONS
+from fakevehicle.estimator.predictor import PREDICTOR, advance_output
 from fakevehicle.jit import kernel
 from fakevehicle.physics.dynamics import STATE, step
 from fakevehicle.physics.ground import settle
 from fakevehicle.physics.wind import TURBULENCE, scheduled, turbulence
-from fakevehicle.sensors.imu import integrate_imu, read_gyro, walk_biases
+from fakevehicle.sensors.imu import IMU, integrate_imu, read_gyro, walk_biases
 
 SUBSTEPS = 4
 DT = 0.001
@@ -45,6 +48,22 @@ WORLD = np.dtype(
     ]
 )
 """The simulated world and what is asked of the vehicle in it; one record."""
+LOOP_COUNT = 6
+VEHICLE = np.dtype(
+    [
+        ("world", WORLD),
+        ("body", BODY),
+        ("gains", GAINS),
+        ("status", LOOPS),
+        ("imu", IMU),
+        ("predictor", PREDICTOR),
+        ("loops", LOOP, (LOOP_COUNT,)),
+        ("coefficients", "f8", (3 * LOOP_COUNT, SECTIONS, 3)),
+        ("states", "f8", (3 * LOOP_COUNT, SECTIONS)),
+    ]
+)
+"""Everything a tick works on. Its parts are views for those who own them; the compiled call gets the whole as plain
+numbers, since numba takes longer to look at six records than to fly a tick."""
 
 
 @kernel
@@ -55,15 +74,7 @@ def advance(
     noise_,
     gust_noise_,
     gusts,
-    world_,
-    body_,
-    gains_,
-    status_,
-    bank,
-    coefficients,
-    states,
-    imu_,
-    predictor_,
+    vehicle_,
     samples,
     outputs,
 ):
@@ -75,16 +86,17 @@ def advance(
     now : the tick's end [s].
     noise_ : (n, DRAWS) and gust_noise_ : (n, TURBULENCE) standard normal draws, and which row of them is this tick's.
     gusts : (n, 6), see `wind.gust_table`.
-    world_, body_, gains_, status_, imu_, predictor_ : (1,) of `WORLD`, `airframe.BODY`, `cascade.GAINS`,
-        `cascade.LOOPS`, `imu.IMU`, `predictor.PREDICTOR`.
-    bank, coefficients, states : of the `LoopBank`.
+    vehicle_ : a (1,) array of `VEHICLE` seen as f8.
     samples, outputs : the estimator's rings (`predictor`).
 
     Returns
     -------
     TOUCHES when a foot touches the ground, plus DIVERGED when the state is no longer finite.
     """
-    world, body, gains, status, imu, predictor = world_[0], body_[0], gains_[0], status_[0], imu_[0], predictor_[0]
+    vehicle = vehicle_.view(VEHICLE)[0]
+    world, body, imu, predictor = vehicle.world, vehicle.body, vehicle.imu, vehicle.predictor
+    gains, status = vehicle.gains, vehicle.status
+    bank, coefficients, states = vehicle.loops, vehicle.coefficients, vehicle.states
     x, work, anchor, noise = world.x, world.work, world.anchor, noise_[row]
     bias = predictor.nominal[10:13]
     if motors == FLYING:
