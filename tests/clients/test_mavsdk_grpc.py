@@ -18,6 +18,8 @@ from mavsdk_grpc.ftp import FtpError
 from mavsdk_grpc.geofence import Circle, FenceType, GeofenceData, Point, Polygon
 from mavsdk_grpc.mission import MissionItem, MissionPlan
 from mavsdk_grpc.offboard import (
+    Attitude,
+    AttitudeRate,
     OffboardError,
     PositionNedYaw,
     VelocityBodyYawspeed,
@@ -224,6 +226,32 @@ def test_take_off_goto_offboard_in_four_ways_return_and_land() -> None:
 def away(told: Any, point: tuple[float, float, float]) -> float:
     p = told.position
     return math.dist((p.north_m, p.east_m, p.down_m), point)
+
+
+def test_offboard_by_attitude_and_by_body_rates() -> None:
+    """A lean of 5 degrees to the right drifts east; 0.6 of its thrust is about what the x500 hovers with."""
+    hover = 0.6
+
+    async def story(system: Any, _vehicle: VehicleProcess) -> None:
+        action, telemetry, offboard = system.action, system.telemetry, system.offboard
+        await ready(system)
+        await action.set_takeoff_altitude(6.0)
+        await action.arm()
+        await action.takeoff()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.HOLD, 20)
+        await offboard.set_attitude(Attitude(5.0, 0.0, 0.0, hover))
+        await offboard.start()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.OFFBOARD, 3)
+        await until(telemetry.attitude_euler(), lambda a: abs(a.roll_deg - 5.0) < 1.5 and abs(a.pitch_deg) < 1.5, 3)
+        await until(telemetry.velocity_ned(), lambda v: v.east_m_s > 0.5, 4)
+        await offboard.set_attitude_rate(AttitudeRate(0.0, 0.0, 40.0, hover))
+        await until(telemetry.attitude_angular_velocity_body(), lambda w: 0.5 < w.yaw_rad_s < 0.9, 3)
+        await offboard.stop()
+        await until(telemetry.flight_mode(), lambda mode: mode == FlightMode.HOLD, 4)
+        await action.land()
+        await until(telemetry.armed(), lambda armed: not armed, 60)
+
+    fly(story, "--speed", "2")
 
 
 def test_a_mission_and_a_fence_are_loaded_and_the_mission_flown() -> None:
