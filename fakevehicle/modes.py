@@ -11,8 +11,8 @@ what follows, and nothing else decides:
   event is refused in this mode), RESUME (back to OFFBOARD, if it was a lost stream that led here).
 
 An event that is refused changes nothing. What a failsafe wants is an event too (`failsafes.py` says which): the table
-never lets one undo what a more severe one began. Rule 1: this file knows no MAVLink message, only the mode numbers that
-PX4 puts into them. Rule 2: it keeps no state; `supervisor.py` does.
+never lets one undo what a more severe one began. Rule 1: this file knows no MAVLink message; which number stands for
+which mode is the flavours' business. Rule 2: it keeps no state; `supervisor.py` does.
 
 Where we follow PX4 v1.16 and where we are kinder
 -------------------------------------------------
@@ -32,18 +32,6 @@ want of a stream; BRAKE is a Hold under its own name.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
-
-MAIN_ALTITUDE = 2
-MAIN_POSITION = 3
-MAIN_AUTO = 4
-MAIN_OFFBOARD = 6
-MAIN_STABILIZED = 7
-AUTO_READY = 1
-AUTO_TAKEOFF = 2
-AUTO_HOLD = 3
-AUTO_MISSION = 4
-AUTO_RTL = 5
-AUTO_LAND = 6
 
 
 class Mode(Enum):
@@ -65,31 +53,6 @@ class Mode(Enum):
     def title(self) -> str:
         """What people call it."""
         return self.value
-
-    @property
-    def custom_mode(self) -> int:
-        """HEARTBEAT.custom_mode as PX4 has it: main << 16 | sub << 24; 0 for a mode PX4 does not have."""
-        main, sub = PX4_NUMBERS.get(self, (0, 0))
-        return main << 16 | sub << 24
-
-    @property
-    def automatic(self) -> bool:
-        """Whether the vehicle itself decides where to fly (MAV_MODE_FLAG_AUTO_ENABLED)."""
-        return PX4_NUMBERS.get(self, (0, 0))[0] == MAIN_AUTO
-
-
-PX4_NUMBERS: Mapping[Mode, tuple[int, int]] = {
-    Mode.HOLD: (MAIN_AUTO, AUTO_HOLD),
-    Mode.POSITION: (MAIN_POSITION, 0),
-    Mode.ALTITUDE: (MAIN_ALTITUDE, 0),
-    Mode.STABILIZED: (MAIN_STABILIZED, 0),
-    Mode.TAKEOFF: (MAIN_AUTO, AUTO_TAKEOFF),
-    Mode.LAND: (MAIN_AUTO, AUTO_LAND),
-    Mode.RTL: (MAIN_AUTO, AUTO_RTL),
-    Mode.MISSION: (MAIN_AUTO, AUTO_MISSION),
-    Mode.OFFBOARD: (MAIN_OFFBOARD, 0),
-}
-"""(main mode, sub mode), as px4_custom_mode.h numbers them. PX4 has no GUIDED and no BRAKE."""
 
 
 class Event(Enum):
@@ -284,22 +247,3 @@ def refusal(event: Event, conditions: Conditions) -> Refusal | None:
     if TRANSITIONS[event][conditions.mode] is Special.DENY:
         return Refusal.NOT_ARMABLE_MODE
     return None
-
-
-def event_for_custom_mode(main: int, sub: int) -> Event | None:
-    """The event that asks for PX4's (main, sub) mode; None for a mode this vehicle does not have."""
-    return _ASKED.get((main, sub if main == MAIN_AUTO else 0))
-
-
-_ASKED = {
-    (MAIN_ALTITUDE, 0): Event.ASK_ALTITUDE,
-    (MAIN_POSITION, 0): Event.ASK_POSITION,
-    (MAIN_OFFBOARD, 0): Event.ASK_OFFBOARD,
-    (MAIN_STABILIZED, 0): Event.ASK_STABILIZED,
-    (MAIN_AUTO, AUTO_READY): Event.ASK_HOLD,
-    (MAIN_AUTO, AUTO_HOLD): Event.ASK_HOLD,
-    (MAIN_AUTO, AUTO_TAKEOFF): Event.ASK_TAKEOFF,
-    (MAIN_AUTO, AUTO_MISSION): Event.ASK_MISSION,
-    (MAIN_AUTO, AUTO_RTL): Event.ASK_RTL,
-    (MAIN_AUTO, AUTO_LAND): Event.ASK_LAND,
-}

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from fakevehicle.codec import Message
 from fakevehicle.config import Profile
 from fakevehicle.flavours.base import Flavour, ModeInfo
-from fakevehicle.modes import PX4_NUMBERS, Mode
+from fakevehicle.flavours.px4_modes import PX4_NUMBERS, automatic, custom_mode, event_for_custom_mode
+from fakevehicle.modes import Mode
 from fakevehicle.services.outbox import Sender
-from fakevehicle.services.service import ACCEPTED, Builder, Command, CommandSpec, Verdict, denied
+from fakevehicle.services.service import ACCEPTED, Builder, Command, CommandSpec, Handler, Verdict, denied, judged
 from wire.dialect import mavlink
 
 _m = mavlink
@@ -82,11 +83,33 @@ class Px4(Flavour):
         """PX4's own for its two kinds of links."""
         return RATES_HZ[profile]
 
+    def routes(self) -> Mapping[int, Handler]:
+        """The old message for a mode."""
+        return {mavlink.MAVLINK_MSG_ID_SET_MODE: self.set_mode}
+
     def commands(self) -> Mapping[int, CommandSpec]:
-        """REQUEST_MESSAGE, which counts modes."""
+        """Those that name a mode by PX4's numbers."""
         self._below = self.parts.commands.commands()[mavlink.MAV_CMD_REQUEST_MESSAGE]
         spec = CommandSpec(self._request_message, self._below.title, (*self._below.understood, 2))
-        return {mavlink.MAV_CMD_REQUEST_MESSAGE: spec}
+        return {
+            mavlink.MAV_CMD_DO_SET_MODE: CommandSpec(self._set_mode, "Mode change", (1, 2, 3)),
+            mavlink.MAV_CMD_REQUEST_MESSAGE: spec,
+        }
+
+    def set_mode(self, sender: Sender, message: Message, now_us: int) -> None:
+        """The old SET_MODE message; it is acknowledged as its command would be."""
+        main, sub = message.custom_mode >> 16 & 0xFF, message.custom_mode >> 24 & 0xFF
+        params = (float(message.base_mode), float(main), float(sub), math.nan, math.nan)
+        self.parts.commands.carry_out(sender, Command(mavlink.MAV_CMD_DO_SET_MODE, params), now_us)
+
+    def _set_mode(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        base, main, sub = (round(p) if math.isfinite(p) else None for p in command.params[:3])
+        if base is None or not base & mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED:
+            return denied("only PX4's custom modes are understood (param1 = 1)")
+        event = event_for_custom_mode(-1 if main is None else main, 0 if sub is None else sub)
+        if event is None:
+            return denied(f"this vehicle has no mode {main}/{sub}")
+        return judged(self.parts.supervisor.ask(event, now_us))
 
     def _request_message(self, sender: Sender, command: Command, now_us: int) -> Verdict:
         """AVAILABLE_MODES by its index (parameter 2), 0 for all of them; any other message as everywhere."""
@@ -106,7 +129,7 @@ class Px4(Flavour):
     def modes(self) -> tuple[ModeInfo, ...]:
         """PX4's, as far as this vehicle has them."""
         return tuple(
-            ModeInfo(mode.title, mode.custom_mode, _STANDARD_MODE.get(mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD))
+            ModeInfo(mode.title, custom_mode(mode), _STANDARD_MODE.get(mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD))
             for mode in PX4_NUMBERS
         )
 
@@ -131,7 +154,7 @@ class Px4(Flavour):
         """base_mode as PX4 sets it: automatic modes are stabilized, guided and auto."""
         s = self.parts.supervisor
         base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | mavlink.MAV_MODE_FLAG_STABILIZE_ENABLED
-        if s.mode.automatic:
+        if automatic(s.mode):
             base |= mavlink.MAV_MODE_FLAG_GUIDED_ENABLED | mavlink.MAV_MODE_FLAG_AUTO_ENABLED
         elif s.mode is Mode.POSITION:
             base |= mavlink.MAV_MODE_FLAG_MANUAL_INPUT_ENABLED
@@ -143,10 +166,10 @@ class Px4(Flavour):
         else:
             status = mavlink.MAV_STATE_UNINIT
         return mavlink.MAVLink_heartbeat_message(
-            mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_PX4, base, s.mode.custom_mode, status, 3
+            mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_PX4, base, custom_mode(s.mode), status, 3
         )
 
     def current_mode(self) -> Message:
         s = self.parts.supervisor
         standard = _STANDARD_MODE.get(s.mode, mavlink.MAV_STANDARD_MODE_NON_STANDARD)
-        return mavlink.MAVLink_current_mode_message(standard, s.mode.custom_mode, s.intended.custom_mode)
+        return mavlink.MAVLink_current_mode_message(standard, custom_mode(s.mode), custom_mode(s.intended))

@@ -18,7 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from fakevehicle.codec import Message
-from fakevehicle.modes import Event, Refusal, event_for_custom_mode
+from fakevehicle.modes import Event, Refusal
 from fakevehicle.places import Places
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import (
@@ -75,11 +75,10 @@ class Commands(Service):
         self.rejected = 0
 
     def routes(self) -> Mapping[int, Handler]:
-        """The two command messages, and the old SET_MODE."""
+        """The two command messages."""
         return {
             mavlink.MAVLINK_MSG_ID_COMMAND_LONG: self.command_long,
             mavlink.MAVLINK_MSG_ID_COMMAND_INT: self.command_int,
-            mavlink.MAVLINK_MSG_ID_SET_MODE: self.set_mode,
         }
 
     def commands(self) -> Mapping[int, CommandSpec]:
@@ -89,7 +88,6 @@ class Commands(Service):
             m.MAV_CMD_NAV_RETURN_TO_LAUNCH: CommandSpec(self._return, "Return"),
             m.MAV_CMD_NAV_LAND: CommandSpec(self._land, "Landing", (5, 6, 7)),
             m.MAV_CMD_NAV_TAKEOFF: CommandSpec(self._takeoff, "Takeoff", (1, 5, 6, 7)),
-            m.MAV_CMD_DO_SET_MODE: CommandSpec(self._set_mode, "Mode change", (1, 2, 3)),
             m.MAV_CMD_DO_REPOSITION: CommandSpec(self._reposition, "Goto", (1, 2, 4, 5, 6, 7)),
             m.MAV_CMD_COMPONENT_ARM_DISARM: CommandSpec(self._arm_disarm, "Arming", (1, 2)),
             m.MAV_CMD_GET_MESSAGE_INTERVAL: CommandSpec(self._get_interval, "Message interval", (1,)),
@@ -102,7 +100,7 @@ class Commands(Service):
         """COMMAND_LONG: seven floats; 5 and 6 are degrees where they are a place."""
         m = message
         params = (m.param1, m.param2, m.param3, m.param4, m.param7)
-        self._carry_out(sender, Command(m.command, params, m.param5, m.param6, mavlink.MAV_FRAME_GLOBAL), now_us)
+        self.carry_out(sender, Command(m.command, params, m.param5, m.param6, mavlink.MAV_FRAME_GLOBAL), now_us)
 
     def command_int(self, sender: Sender, message: Message, now_us: int) -> None:
         """COMMAND_INT: x and y are degrees times 1e7 where they are a place."""
@@ -110,16 +108,10 @@ class Commands(Service):
         latitude = math.nan if m.x == INT_UNSET else m.x * 1e-7
         longitude = math.nan if m.y == INT_UNSET else m.y * 1e-7
         params = (m.param1, m.param2, m.param3, m.param4, m.z)
-        self._carry_out(sender, Command(m.command, params, latitude, longitude, m.frame), now_us)
+        self.carry_out(sender, Command(m.command, params, latitude, longitude, m.frame), now_us)
 
-    def set_mode(self, sender: Sender, message: Message, now_us: int) -> None:
-        """The old SET_MODE message; it is acknowledged as its command would be."""
-        main, sub = message.custom_mode >> 16 & 0xFF, message.custom_mode >> 24 & 0xFF
-        params = (float(message.base_mode), float(main), float(sub), math.nan, math.nan)
-        command = Command(mavlink.MAV_CMD_DO_SET_MODE, params, math.nan, math.nan, mavlink.MAV_FRAME_GLOBAL)
-        self._carry_out(sender, command, now_us)
-
-    def _carry_out(self, sender: Sender, command: Command, now_us: int) -> None:
+    def carry_out(self, sender: Sender, command: Command, now_us: int) -> None:
+        """Do it or refuse it, and say so."""
         spec = self.table.get(command.command)
         if spec is None:
             verdict = Verdict(mavlink.MAV_RESULT_UNSUPPORTED, "this vehicle does not have it")
@@ -181,15 +173,6 @@ class Commands(Service):
         there_n = self._places.local(Geodetic(np.radians(latitude), np.radians(longitude), origin.altitude))
         distance = math.inf if there_n is None else math.dist(there_n[:2], here_n[:2])
         return distance if distance > HERE else None
-
-    def _set_mode(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        base, main, sub = (_whole(p) for p in command.params[:3])
-        if base is None or not base & mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED:
-            return denied("only PX4's custom modes are understood (param1 = 1)")
-        event = event_for_custom_mode(-1 if main is None else main, 0 if sub is None else sub)
-        if event is None:
-            return denied(f"this vehicle has no mode {main}/{sub}")
-        return judged(self._supervisor.ask(event, now_us))
 
     def _reposition(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         """Fly to a place and hold. Parameter 4 is the yaw [rad]; NaN anywhere keeps what is.

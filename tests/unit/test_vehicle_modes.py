@@ -4,16 +4,15 @@ from dataclasses import replace
 
 import pytest
 
+from fakevehicle.flavours.px4_modes import PX4_NUMBERS, custom_mode, event_for_custom_mode
 from fakevehicle.modes import (
     GUARDS,
-    PX4_NUMBERS,
     TRANSITIONS,
     Conditions,
     Event,
     Mode,
     Refusal,
     Special,
-    event_for_custom_mode,
     refusal,
 )
 
@@ -48,13 +47,13 @@ def test_asking_for_a_mode_leads_to_that_mode_from_everywhere(mode: Mode) -> Non
 @pytest.mark.parametrize("mode", PX4_NUMBERS)
 def test_custom_mode_is_main_at_bit_16_and_sub_at_bit_24(mode: Mode) -> None:
     main, sub = PX4_NUMBERS[mode]
-    assert mode.custom_mode.to_bytes(4, "little") == bytes((0, 0, main, sub))
+    assert custom_mode(mode).to_bytes(4, "little") == bytes((0, 0, main, sub))
 
 
 def test_custom_mode_of_hold_is_what_px4_sends() -> None:
-    assert Mode.HOLD.custom_mode == 50593792
-    assert Mode.OFFBOARD.custom_mode == 393216
-    assert Mode.LAND.custom_mode == 100925440
+    assert custom_mode(Mode.HOLD) == 50593792
+    assert custom_mode(Mode.OFFBOARD) == 393216
+    assert custom_mode(Mode.LAND) == 100925440
 
 
 @pytest.mark.parametrize("mode", [Mode.LAND, Mode.RTL])
