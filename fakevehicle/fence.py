@@ -11,7 +11,7 @@ from enum import Enum
 
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
-from fakevehicle.plans import CIRCLES, Kind, PlanItem, PlanStore
+from fakevehicle.plans import CIRCLES, PlanItem, PlanStore
 from fakevehicle.vocabulary import FloatArray, Geodetic
 from wire.dialect import mavlink
 
@@ -62,7 +62,7 @@ class FenceMonitor:
         self._parameters = parameters
         self._places = places
         self._zones: tuple[_Zone, ...] = ()
-        self._made_of: tuple[int, Geodetic | None] = (-1, None)
+        self._made_of: tuple[object, Geodetic | None] = (None, None)
         self.breach: Breach | None = None
         self.breaches = 0
         self.since_us = 0
@@ -98,9 +98,9 @@ class FenceMonitor:
 
     def _local_zones(self) -> tuple[_Zone, ...]:
         origin = self._places.origin
-        made_of = (self._store.version_of(Kind.FENCE), origin)
-        if made_of != self._made_of:
-            self._made_of = made_of
+        fence, made_of = self._store.fence, self._made_of
+        if fence is not made_of[0] or origin is not made_of[1]:
+            self._made_of = (fence, origin)
             self._zones = () if origin is None else tuple(self._convert(self._store.fence))
         return self._zones
 

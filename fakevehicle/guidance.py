@@ -9,11 +9,14 @@ its start, with distance d, acceleration a and speed v = min(v_max, sqrt(a d)),
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
-from fakevehicle.vocabulary import FloatArray, Setpoint
+from fakevehicle.vocabulary import FloatArray, Setpoint, unused, unused_attitude
+
+_NO_RATE, _NO_ATTITUDE = unused(), unused_attitude()
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +29,10 @@ class Leg:
     start_n, end_n : (3,) local NED [m].
     speed : highest speed [m/s], > 0.
     acceleration : [m/s^2], > 0.
+    length : distance between the ends [m].
+    top : highest speed that is reached [m/s].
+    duration_s : time from rest to rest [s].
+    direction_n : (3,) of unit length, from start to end; zero for a leg of no length.
     """
 
     start_us: int
@@ -34,28 +41,27 @@ class Leg:
     speed: float
     acceleration: float
 
-    @property
-    def length(self) -> float:
-        """Distance between the ends [m]."""
-        return math.dist(self.start_n, self.end_n)
+    length: float = field(init=False)
+    top: float = field(init=False)
+    duration_s: float = field(init=False)
+    direction_n: FloatArray = field(init=False)
 
-    @property
-    def duration_s(self) -> float:
-        """Time from rest to rest [s]."""
-        length = self.length
-        if length == 0.0:
-            return 0.0
+    def __post_init__(self) -> None:
+        length = math.dist(self.start_n, self.end_n)
         top = min(self.speed, math.sqrt(self.acceleration * length))
-        return length / top + top / self.acceleration
+        put = partial(object.__setattr__, self)  # once, here: a setpoint is made of them at every tick
+        put("length", length)
+        put("top", top)
+        put("duration_s", length / top + top / self.acceleration if length else 0.0)
+        put("direction_n", (self.end_n - self.start_n) / length if length else np.zeros(3))
 
     def setpoint(self, now_us: int, yaw: float) -> Setpoint:
         """Position, velocity and acceleration at `now_us`, at the nearer end outside the leg's time."""
-        length, a = self.length, self.acceleration
+        length, a, top = self.length, self.acceleration, self.top
         tau = (now_us - self.start_us) * 1e-6
-        if length == 0.0 or tau >= self.duration_s:
+        if tau >= self.duration_s or not length:
             return still(self.end_n, yaw)
         tau = max(tau, 0.0)
-        top = min(self.speed, math.sqrt(a * length))
         t1, t2 = top / a, length / top
         if tau < t1:
             s, ds, dds = 0.5 * a * tau * tau, a * tau, a
@@ -64,10 +70,8 @@ class Leg:
         else:
             rest = t1 + t2 - tau
             s, ds, dds = length - 0.5 * a * rest * rest, a * rest, -a
-        direction = (self.end_n - self.start_n) / length
-        return Setpoint(
-            position_n=self.start_n + s * direction, velocity_n=ds * direction, acceleration_n=dds * direction, yaw=yaw
-        )
+        e = self.direction_n
+        return Setpoint(self.start_n + s * e, ds * e, dds * e, yaw, math.nan, _NO_ATTITUDE, _NO_RATE)
 
 
 def still(position_n: FloatArray, yaw: float) -> Setpoint:

@@ -14,7 +14,7 @@ from fakevehicle.course import Course
 from fakevehicle.modes import Event
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
-from fakevehicle.plans import RELATIVE_FRAMES, Kind, PlanItem, PlanStore
+from fakevehicle.plans import RELATIVE_FRAMES, PlanItem, PlanStore
 from fakevehicle.vocabulary import FloatArray, Geodetic, Glance, Setpoint
 from wire.dialect import mavlink
 
@@ -82,7 +82,7 @@ class MissionRunner:
         self._parameters = parameters
         self._places = places
         self._course = course
-        self._version = store.version_of(Kind.MISSION)
+        self._plan = store.mission
         self._index = 0
         self._active = self._started = False
         self._interrupted = False  # on the way, somebody has named another item
@@ -187,7 +187,7 @@ class MissionRunner:
         if self._phase is _Phase.START and not self._set_out(now_us, item, airborne, home_n):
             return course.setpoint(now_us) if airborne else None
         late_s = course.late_s(now_us)
-        away = math.dist((glance.x, glance.y, glance.z), course.anchor_n)
+        away = math.dist((glance.x, glance.y, glance.z), course.anchor_n) if late_s >= 0.0 else math.inf
         if self._phase is _Phase.CLIMB and airborne and late_s >= 0.0 and (away < CLIMBED or late_s > CLIMB_PATIENCE_S):
             self._travel(now_us, item, home_n)
         elif self._phase is _Phase.TRAVEL and late_s >= 0.0 and away < self._radius(item):
@@ -275,9 +275,8 @@ class MissionRunner:
 
     def _refresh(self) -> None:
         """Begin with the first item of a mission that has just been loaded."""
-        version = self._store.version_of(Kind.MISSION)
-        if version != self._version:
-            self._version = version
+        if self._store.mission is not self._plan:
+            self._plan = self._store.mission
             self.set_current(0)
             self._started, self.reached = False, None
 

@@ -162,38 +162,25 @@ def _param(number: int) -> int:
 
 
 class PlanStore:
-    """The plans that are loaded; `version` counts changes, so that whoever caches derived values looks again."""
+    """The plans that are loaded. Every plan that is loaded is a new tuple, by which whoever caches values knows it.
+
+    Attributes
+    ----------
+    mission : what MISSION mode flies.
+    fence : where the vehicle may fly.
+    rally : where a return may end, other than home.
+    version : counts changes of any plan.
+    """
 
     def __init__(self) -> None:
-        self._plans: dict[Kind, tuple[PlanItem, ...]] = {kind: () for kind in Kind}
-        self._versions = dict.fromkeys(Kind, 0)
+        self.mission: tuple[PlanItem, ...] = ()
+        self.fence: tuple[PlanItem, ...] = ()
+        self.rally: tuple[PlanItem, ...] = ()
+        self.version = 0
 
     def __getitem__(self, kind: Kind) -> tuple[PlanItem, ...]:
-        return self._plans[kind]
-
-    @property
-    def mission(self) -> tuple[PlanItem, ...]:
-        """What MISSION mode flies."""
-        return self._plans[Kind.MISSION]
-
-    @property
-    def fence(self) -> tuple[PlanItem, ...]:
-        """Where the vehicle may fly."""
-        return self._plans[Kind.FENCE]
-
-    @property
-    def rally(self) -> tuple[PlanItem, ...]:
-        """Where a return may end, other than home."""
-        return self._plans[Kind.RALLY]
-
-    @property
-    def version(self) -> int:
-        """Counts changes of any plan."""
-        return sum(self._versions.values())
-
-    def version_of(self, kind: Kind) -> int:
-        """Counts changes of one plan."""
-        return self._versions[kind]
+        plan: tuple[PlanItem, ...] = getattr(self, kind.name.lower())
+        return plan
 
     def replace(self, kind: Kind, items: Sequence[PlanItem]) -> None:
         """Load a plan.
@@ -206,12 +193,12 @@ class PlanStore:
         flaw = flaws[0] if flaws else plan_flaw(kind, items)
         if flaw is not None or len(items) > MAX_ITEMS:
             raise ValueError(flaw.reason if flaw else f"{len(items)} items: expected at most {MAX_ITEMS}")
-        self._plans[kind] = tuple(items)
-        self._versions[kind] += 1
+        setattr(self, kind.name.lower(), tuple(items))
+        self.version += 1
 
     def opaque_id(self, kind: Kind) -> int:
         """A number that changes with the plan's content and outlives a restart: its CRC-32; 0 when there is none."""
-        packed = b"".join(_ITEM.pack(i.command, i.frame, i.autocontinue, *i.params) for i in self._plans[kind])
+        packed = b"".join(_ITEM.pack(i.command, i.frame, i.autocontinue, *i.params) for i in self[kind])
         return zlib.crc32(packed) if packed else 0
 
 

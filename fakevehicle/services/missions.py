@@ -388,7 +388,7 @@ class Missions(Service):
 
     @property
     def _progress(self) -> object:
-        return self._runner.current, self._runner.state, self._store.version_of(Kind.MISSION)
+        return self._runner.current, self._runner.state, self._store.mission
 
     def _tell_progress(self) -> None:
         self._told = self._progress
