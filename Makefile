@@ -4,18 +4,22 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 PEERS := .peers
+MAVPROXY := $(CURDIR)/$(PEERS)/mavproxy
 PACKAGES := companion fakevehicle planner logs wire
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test lint check format bench bench-peers pin clean
+.PHONY: help demo test test-clients lint check format bench bench-peers pin clean
 help:            ## show this
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
 	$(BIN)/companion demo
 
 test: $(STAMP)   ## every test
 	$(BIN)/python -m pytest -q
+
+test-clients: $(STAMP) $(PEERS)/mavproxy/.installed ## other people's clients fly the vehicle: MAVSDK, pymavlink, MAVProxy
+	PYTHONPATH=$(MAVPROXY) MAVPROXY=$(MAVPROXY)/bin/mavproxy.py $(BIN)/python -m pytest -q tests/clients
 
 lint: $(STAMP)   ## format, lint, types, import rules
 	$(BIN)/ruff format --check .
@@ -46,6 +50,11 @@ clean:           ## remove the environment and caches
 # --no-deps: mealpy pins an old numpy, and needs of pandas only that it can be imported; of rotorpy only the plant is used.
 $(PEERS)/.installed: $(STAMP)
 	$(BIN)/python -m pip install -q --no-deps --target $(PEERS) --upgrade mealpy==3.0.3 rotorpy==3.0.0 pandas python-dateutil six tzdata
+	@touch $@
+
+# --no-deps: of what it brings along (1.1 GB) its console needs the serial port's package, and pymavlink, which is here.
+$(PEERS)/mavproxy/.installed: $(STAMP)
+	$(BIN)/python -m pip install -q --no-deps --target $(PEERS)/mavproxy --upgrade MAVProxy==1.8.75 pyserial==3.5
 	@touch $@
 
 $(STAMP): pyproject.toml constraints.txt
