@@ -10,33 +10,28 @@ request is answered in the form it asks for. A plan read back has frame 3 where 
 `plain_frames` says so.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from fakevehicle.codec import Message
-from fakevehicle.mission_runner import target_of
-from fakevehicle.modes import Mode, Refusal
+from fakevehicle.modes import Mode
 from fakevehicle.places import Places
-from fakevehicle.plans import (
-    GLOBAL_FRAMES,
-    MAX_ITEMS,
-    RELATIVE_FRAMES,
-    Flaw,
-    Kind,
-    PlanItem,
-    PlanStore,
-    item_flaw,
-    plan_flaw,
+from fakevehicle.plans import MAX_ITEMS, Flaw, Kind, PlanItem, PlanStore, item_flaw, plan_flaw
+from fakevehicle.services.mission_items import (
+    PLAIN_FRAMES,
+    as_int32,
+    go_to,
+    home_item,
+    item_of,
+    kind_of,
+    scale_of,
 )
-from fakevehicle.services.commands import MAX_GOTO
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Builder, Handler, Service
 from fakevehicle.supervisor import Supervisor
 from wire.dialect import mavlink
 
 _m = mavlink
-_LOCAL = (_m.MAV_FRAME_LOCAL_NED, _m.MAV_FRAME_LOCAL_ENU, _m.MAV_FRAME_LOCAL_OFFSET_NED)
 _ALL = 255
 LOOK_US = 20_000
 """Progress and time-outs are looked at this often."""
@@ -81,36 +76,6 @@ class _Upload:
         return self.first + len(self.items)
 
 
-def home_item(supervisor: Supervisor, places: Places) -> PlanItem | None:
-    """Home as a mission's item; None before it is known."""
-    place = None if supervisor.home is None else places.e7(supervisor.home.position_n)
-    if place is None:
-        return None
-    latitude, longitude, millimetres = place
-    where = (latitude * 1e-7, longitude * 1e-7, millimetres * 1e-3)
-    return PlanItem(_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_FRAME_GLOBAL, (0.0, 0.0, 0.0, 0.0, *where))
-
-
-def go_to(supervisor: Supervisor, places: Places, item: PlanItem, now_us: int) -> str | None:
-    """Fly to the place of an item and hold there; None, or the reason why not."""
-    here_n, home = supervisor.position_n, supervisor.home
-    if here_n is None or home is None:
-        return Refusal.NO_POSITION.value
-    if item.frame not in GLOBAL_FRAMES + RELATIVE_FRAMES:
-        return f"frame {item.frame}, expected a global one"
-    latitude, longitude, altitude = item.params[4:]
-    if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0 and math.isfinite(altitude)):
-        return "the place is not on the globe"
-    target_n = target_of(item, places, float(home.position_n[2]), here_n)
-    if target_n is None:
-        return Refusal.NO_POSITION.value
-    distance = math.dist(target_n, here_n)
-    if distance > MAX_GOTO:
-        return f"{distance / 1000:.1f} km away, expected at most {MAX_GOTO / 1000:g} km"
-    refusal = supervisor.ask_goto(now_us, target_n, math.nan)
-    return None if refusal is None else refusal.value
-
-
 class Missions(Service):
     """Answers the mission protocol's messages and keeps the plans.
 
@@ -141,6 +106,7 @@ class Missions(Service):
         self._places = places
         self.habits = habits or MissionHabits()
         self._upload: _Upload | None = None
+        self._finished: tuple[Sender, int, int] | None = None  # whose upload ended well, its kind and last item
         self._told: object = None
         self._reached = 0
 
@@ -171,7 +137,7 @@ class Missions(Service):
 
     def request_list(self, sender: Sender, message: Message, now_us: int) -> None:
         """MISSION_REQUEST_LIST, and the one for a part: how many items there are."""
-        kind = _kind(message)
+        kind = kind_of(message)
         if kind is None:
             self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
             return
@@ -189,7 +155,7 @@ class Missions(Service):
         self._send(sender, message, _m.MAVLink_mission_item_message, integer=False)
 
     def _send(self, sender: Sender, message: Message, build: Callable[..., Message], integer: bool) -> None:
-        kind = _kind(message)
+        kind = kind_of(message)
         items = () if kind is None else self._items(kind)
         if kind is None or message.seq >= len(items):
             flaw = Flaw(_m.MAV_MISSION_INVALID_SEQUENCE, f"there is no item {message.seq}")
@@ -198,9 +164,9 @@ class Missions(Service):
         item = items[message.seq]
         x, y = item.params[4:6]
         if integer:
-            scale = _scale(item.frame)
-            x, y = _int32(x * scale), _int32(y * scale)
-        frame = _PLAIN.get(item.frame, item.frame) if self.habits.plain_frames else item.frame
+            scale = scale_of(item.frame)
+            x, y = as_int32(x * scale), as_int32(y * scale)
+        frame = PLAIN_FRAMES.get(item.frame, item.frame) if self.habits.plain_frames else item.frame
         current = kind is Kind.MISSION and message.seq == self._sequence
         self._outbox.answer(
             sender,
@@ -230,7 +196,7 @@ class Missions(Service):
 
     def count(self, sender: Sender, message: Message, now_us: int) -> None:
         """MISSION_COUNT: an upload begins. None at all is an empty plan."""
-        kind = _kind(message)
+        kind = kind_of(message)
         if kind is None:
             self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
         elif self._busy(sender):
@@ -247,7 +213,7 @@ class Missions(Service):
 
     def write_partial(self, sender: Sender, message: Message, now_us: int) -> None:
         """MISSION_WRITE_PARTIAL_LIST: some items of the stored plan are replaced."""
-        kind = _kind(message)
+        kind = kind_of(message)
         first, last = message.start_index, message.end_index
         if kind is None:
             self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
@@ -261,13 +227,17 @@ class Missions(Service):
 
     def item(self, sender: Sender, message: Message, now_us: int) -> None:
         """MISSION_ITEM_INT or MISSION_ITEM: the one we asked for, or a place to go to."""
-        item = _item(message)
+        item = item_of(message)
         if message.current == GUIDED_ITEM:
             reason = go_to(self._supervisor, self._places, item, now_us)
             if reason is None:
                 self._accept(sender, Kind.MISSION.value)
             else:
                 self._refuse(sender, Kind.MISSION.value, Flaw(_m.MAV_MISSION_ERROR, reason))
+            return
+        done = self._finished
+        if self._upload is None and done == (sender, message.mission_type, message.seq):
+            self._accept(sender, message.mission_type)  # our ACK was lost, and the last item comes once more
             return
         up = self._upload
         if up is None or up.sender != sender or message.mission_type != up.kind.value:
@@ -302,7 +272,7 @@ class Missions(Service):
 
     def clear_all(self, sender: Sender, message: Message, now_us: int) -> None:
         """MISSION_CLEAR_ALL: one kind, or all."""
-        kind = _kind(message)
+        kind = kind_of(message)
         if kind is None and message.mission_type != _ALL:
             self._refuse(sender, message.mission_type, Flaw(_m.MAV_MISSION_UNSUPPORTED, "no such kind of plan"))
         elif self._busy(sender):
@@ -340,7 +310,7 @@ class Missions(Service):
         return self._upload is not None and self._upload.sender != sender
 
     def _begin(self, up: _Upload, now_us: int) -> None:
-        self._upload = up
+        self._upload, self._finished = up, None
         up.heard_us = now_us
         self._ask(up, now_us)
 
@@ -361,6 +331,7 @@ class Missions(Service):
             self._refuse(up.sender, up.kind.value, flaw)
             return
         self._store.replace(up.kind, whole)
+        self._finished = (up.sender, up.kind.value, up.last)
         self._accept(up.sender, up.kind.value)
 
     def _accept(self, sender: Sender, kind: int) -> None:
@@ -417,35 +388,3 @@ class Missions(Service):
         if reached is None:
             return None
         return _m.MAVLink_mission_item_reached_message(reached + (1 if self.habits.home_first else 0))
-
-
-_PLAIN = {
-    _m.MAV_FRAME_GLOBAL_INT: _m.MAV_FRAME_GLOBAL,
-    _m.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT: _m.MAV_FRAME_GLOBAL_RELATIVE_ALT,
-}
-
-
-def _kind(message: Message) -> Kind | None:
-    """The plan a message is about; MAVLink 1 has only missions."""
-    number = getattr(message, "mission_type", 0)
-    return Kind(number) if 0 <= number <= 2 else None
-
-
-def _scale(frame: int) -> float:
-    """What MISSION_ITEM_INT multiplies x and y by."""
-    return 1.0 if frame == _m.MAV_FRAME_MISSION else 1e4 if frame in _LOCAL else 1e7
-
-
-def _int32(value: float) -> int:
-    return 2**31 - 1 if math.isnan(value) else round(min(max(value, -(2.0**31)), 2.0**31 - 1))
-
-
-def _item(message: Message) -> PlanItem:
-    """An item as it is kept. INT32_MAX in an integer place stands for NaN."""
-    x, y = float(message.x), float(message.y)
-    if message.get_type() == "MISSION_ITEM_INT":
-        scale = _scale(message.frame)
-        x = math.nan if message.x == 2**31 - 1 else message.x / scale
-        y = math.nan if message.y == 2**31 - 1 else message.y / scale
-    params = (message.param1, message.param2, message.param3, message.param4, x, y, message.z)
-    return PlanItem(message.command, message.frame, params, bool(message.autocontinue))

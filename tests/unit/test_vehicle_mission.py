@@ -184,6 +184,24 @@ def test_a_repeated_item_is_taken_once_and_a_wrong_one_refused(pilot: Pilot) -> 
     assert len(download(pilot)) == 3
 
 
+def test_a_plan_comes_through_a_link_that_loses_every_second_packet(pilot: Pilot) -> None:
+    """GIVEN a client that repeats what is not answered WHEN half of all is lost THEN the plan arrives whole."""
+    rng = np.random.default_rng(7)
+    newest: Any = m.MAVLink_mission_count_message(1, 1, len(SQUARE), 0)
+    for _ in range(60):
+        if rng.random() < 0.5:
+            pilot.send(newest)
+        heard = [h for h in pilot.run(0.3) if rng.random() < 0.5]
+        if any(h.get_type() == "MISSION_ACK" and h.type == m.MAV_MISSION_ACCEPTED for h in heard):
+            break
+        for request in (h for h in heard if h.get_type() == "MISSION_REQUEST_INT"):
+            newest = SQUARE[request.seq]
+    else:
+        raise AssertionError("never acknowledged")
+    assert [fields(i) for i in download(pilot)] == [fields(i) for i in SQUARE]
+    assert pilot.texts() == []
+
+
 def test_a_second_client_waits_for_the_first(pilot: Pilot) -> None:
     other = Pilot(pilot.vehicle, peer=("127.0.0.1", 50001))
     pilot.send(m.MAVLink_mission_count_message(1, 1, 3, 0))
@@ -521,6 +539,16 @@ def test_the_ceiling_is_a_fence_too(pilot: Pilot) -> None:
     pilot.fly(4.0, position(0, 0, -9))
     assert pilot.mode == HOLD
     assert pilot.last("FENCE_STATUS").breach_type == m.FENCE_BREACH_MAXALT
+
+
+def test_a_failsafe_may_stop_the_motors_in_the_air(pilot: Pilot) -> None:
+    pilot.vehicle.parameters.set("GF_ACTION", 4)
+    pilot.vehicle.parameters.set("GF_MAX_HOR_DIST", 5.0)
+    airborne(pilot)
+    point(pilot).p[0] = 8.0
+    pilot.run(0.1)
+    assert not pilot.armed
+    assert "motors off" in " ".join(pilot.texts()[-2:])
 
 
 @pytest.mark.parametrize(("action", "mode"), [(1, HOLD), (2, RTL), (3, LAND)])
