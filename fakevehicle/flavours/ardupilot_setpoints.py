@@ -16,6 +16,7 @@ import numpy as np
 from fakevehicle.codec import Message
 from fakevehicle.flavours.ardupilot_modes import GUIDED
 from fakevehicle.flavours.base import Parts
+from fakevehicle.flavours.climb import ClimbThrust, climb_rate
 from fakevehicle.flavours.guided import POSITION, Wanted, carried_on, setpoint_of, stop
 from fakevehicle.modes import Mode
 from fakevehicle.services.commands import RADIANS_PER_E7
@@ -47,6 +48,7 @@ class GuidedSetpoints(Service):
         self._parts = parts
         self._asked: Setpoint | None = None  # newest, as it came
         self._asked_us = 0
+        self._lift: ClimbThrust | None = None  # while attitudes are flown
         self._nose: float | None = None  # heading on the way to that of travel; None: as the vehicle's
 
     def routes(self) -> Mapping[int, Handler]:
@@ -78,14 +80,33 @@ class GuidedSetpoints(Service):
         self._take(m, frame, position_n, now_us)
 
     def attitude(self, sender: Sender, message: Message, now_us: int) -> None:
-        """SET_ATTITUDE_TARGET, as below, in GUIDED."""
-        if self._flown(now_us):
-            self._asked = None
-            self._parts.setpoints.attitude(sender, message, now_us)
+        """SET_ATTITUDE_TARGET as everywhere, but that its thrust is a climb rate."""
+        s = self._parts.supervisor
+        if not self._flown(now_us):
+            return
+        rejected = self._parts.setpoints.rejected
+        self._parts.setpoints.attitude(sender, message, now_us)
+        if self._parts.setpoints.rejected == rejected:
+            self._asked, self._asked_us = s.asked, now_us
+            self._nose = None
+            if self._lift is None:
+                self._lift = ClimbThrust(self._parts.stack.glance.thrust)
+            self._look_attitude(s.asked)
+
+    def _look_attitude(self, asked: Setpoint | None) -> None:
+        """An attitude's thrust is a climb rate (GUID_OPTIONS without 8): the thrust for it now."""
+        p, g, lift = self._parts.parameters, self._parts.stack.glance, self._lift
+        if asked is None or lift is None:
+            return
+        wanted = climb_rate(asked.thrust, float(p["MPC_Z_V_AUTO_UP"]), float(p["MPC_Z_V_AUTO_DN"]))
+        x, y = asked.attitude_q_nb[1:3].tolist()
+        cosine = 1.0 if math.isnan(x) else 1.0 - 2.0 * (x * x + y * y)
+        thrust = lift.step(wanted, -g.vz, cosine, LOOK_S)
+        self._parts.supervisor.offboard(self._asked_us, replace(asked, thrust=thrust))
 
     def stop(self, now_us: int) -> None:
         """Forget what was followed, and stand still."""
-        self._asked = self._nose = None
+        self._asked = self._nose = self._lift = None
         self._parts.supervisor.offboard(now_us, stop())
 
     def look(self, now_us: int) -> None:
@@ -96,7 +117,10 @@ class GuidedSetpoints(Service):
         age_s, timeout_s = (now_us - self._asked_us) * 1e-6, float(self._parts.parameters["GUID_TIMEOUT"])
         held = not math.isnan(float(asked.position_n[0]))
         if s.mode is not Mode.GUIDED or not s.airborne or s.asked is None or not (held or age_s < timeout_s):
-            self._asked = None
+            self._asked = self._lift = None
+            return
+        if not math.isnan(asked.thrust):
+            self._look_attitude(asked)
             return
         moved = carried_on(asked, age_s, timeout_s) if now_us - self._asked_us > CARRY_US else None
         nose = self._nose_to_travel() if math.isnan(asked.yaw) and math.isnan(asked.yaw_rate) else None
@@ -141,6 +165,7 @@ class GuidedSetpoints(Service):
             self._refuse("outside the fence", now_us)
             return
         self._asked, self._asked_us = asked, now_us
+        self._lift = None
         if not (math.isnan(asked.yaw) and math.isnan(asked.yaw_rate)):
             self._nose = None
         elif self._nose is not None:
