@@ -70,6 +70,8 @@ class Run:
             faults=[parse_fault(text) for text in self.faults],
         )
         self.now_us = 0
+        self.told = self.stack.estimator.resets
+        self.jumped: FloatArray = np.zeros(6)  # all jumps of position and velocity told so far
         self.past: deque[tuple[FloatArray, FloatArray]] = deque(maxlen=40)  # truth and biases, newest last
 
     @property
@@ -79,6 +81,10 @@ class Run:
     def tick(self, setpoint: Setpoint | None) -> None:
         self.now_us += 4000
         self.stack.tick(self.now_us, setpoint, setpoint is not None)
+        resets = self.stack.estimator.resets
+        if resets is not self.told:
+            self.told = resets
+            self.jumped += np.concatenate([resets.delta_position_n, resets.delta_velocity_n])
         imu = self.stack._imu[0]
         self.past.append((self.stack._x.copy(), np.concatenate([imu["gyro_bias"], imu["accel_bias"]])))
 

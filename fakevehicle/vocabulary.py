@@ -53,9 +53,10 @@ class Setpoint:
 
 @dataclass(frozen=True, slots=True)
 class Resets:
-    """Jumps of the estimate that are no motion: who follows a point must move it by as much.
+    """Jumps of the estimate that are no motion; the loops let them fade out of what they see.
 
-    `count` says how many there were; the deltas are the newest one's, new less old.
+    `count` says how many there were; the deltas are the newest one's, new less old. While a jump settles, further
+    deltas come under the same count.
     """
 
     count: int = 0

@@ -51,6 +51,8 @@ DIFFERENCE_SHARE = 0.01
 FIELD_TOLERANCE, FIELD_SHARE = 0.1, 0.05
 """A field whose mean strength or dip is wrong by this share of the whole is disturbed and never turns the vehicle by a
 reset; share of a new sample in the mean."""
+SETTLE_US = 2_000_000
+"""After a reset the first fixes still correct it by much; for this long they do it as a part of the jump [us]."""
 HANDOVER_US = 300_000
 """GPS's height takes over when the barometer has not been accepted for this long [us]."""
 _NONE: frozenset[str] = frozenset()
@@ -115,7 +117,7 @@ class Estimator:
         self.origin: Geodetic | None = None
         self.fusions: dict[str, Fusion] = {}
         self.resets = Resets()
-        self._reset_us = -1
+        self._reset_us = self._told_us = -1
         self.flying = False
         self._aids = {name: Aid() for name in ("gps_position", "gps_velocity", "gps_height", "baro", "mag", "imu")}
         self._settled = False
@@ -127,7 +129,7 @@ class Estimator:
         self._true_dip, self._true_strength = float(field_n[2]), math.sqrt(float(field_n @ field_n))  # [gauss]
         self._dip, self._strength = self._true_dip, self._true_strength  # running means of what is measured
         self._wind = WindWatch()
-        self._drag_us = 0
+        self._drag_us, self._leaned = 0, 0
         self._delay_us = config.gps_delay_us
         self.configure(config)
 
@@ -200,7 +202,7 @@ class Estimator:
         while self._waiting and self._waiting[0][0] <= horizon_us:
             true_us, _, sample = self._waiting.pop(0)
             if true_us != group_us and group:
-                self.filter.take(group)
+                self._take(group, now_us)
                 group = []
             group_us = true_us
             if isinstance(sample, GpsSample):
@@ -210,7 +212,16 @@ class Estimator:
             else:
                 group += self._mag(sample, now_us)
         if group:
-            self.filter.take(group)
+            self._take(group, now_us)
+
+    def _take(self, group: list[Measurement], now_us: int) -> None:
+        """Take measurements of one moment in; soon after a reset what they correct is still part of the jump."""
+        assert self.filter is not None
+        settling = self.resets.count > 0 and now_us - self._reset_us < SETTLE_US
+        before = self.filter.nominal[0:6].copy() if settling else None
+        self.filter.take(group)
+        if before is not None:
+            self._jumped(self.filter.nominal[0:6] - before, 0.0, self.resets.count, now_us)
 
     def _gps(self, fix: GpsSample, late_s: float, now_us: int) -> list[Measurement]:
         """The parts of a fix that are to be taken in; it was true `late_s` before the horizon and is moved there."""
@@ -301,24 +312,31 @@ class Estimator:
             size = float(np.abs(measurement.innovation).max())
             self.filter.forget(anew, math.pi if anew == _YAW else 10.0 * max(size, math.sqrt(measurement.R[0, 0])))
         self.filter.take([measurement])
-        moved, gained = nominal[0:3] - before[0:3], nominal[3:6] - before[3:6]
         turned = math.remainder(_yaw(nominal[6:10]) - _yaw(before[6:10]), 2.0 * math.pi) if anew == _YAW else 0.0
+        count = self.resets.count + (self._reset_us != now_us)  # a fix is two measurements and one jump
+        self._reset_us = now_us
+        self._jumped(nominal[0:6] - before[0:6], turned, count, now_us)
+
+    def _jumped(self, delta: FloatArray, turned: float, count: int, now_us: int) -> None:
+        """Move the output by a jump of position and velocity (6,) and yaw, and tell of all jumps of this step."""
+        moved, gained, told = delta[0:3], delta[3:6], self.resets
         shift_output(self.out, self.ring, moved, gained, turned)
-        told = self.resets
-        if self._reset_us == now_us:  # a fix is two measurements and one jump
+        if self._told_us == now_us:
             moved, gained = moved + told.delta_position_n, gained + told.delta_velocity_n
             turned += told.delta_yaw
-        self.resets = Resets(told.count + (self._reset_us != now_us), moved, gained, turned)
-        self._reset_us = now_us
+        self.resets = Resets(count, moved, gained, turned)
+        self._told_us = now_us
 
     def _lean_on_drag(self, now_us: int) -> None:
         """Without GPS, hold the velocity by the airspeed and the wind there was."""
         accepted = self._aids["gps_velocity"].accepted_us
         if accepted is None or now_us - accepted < UNAIDED_US or not self._wind.known or self._config.drag == 0.0:
+            self._leaned = 0
             return
+        self._leaned += 1
         assert self.filter is not None
         f, wind = self.filter, self._wind
-        f.take([measurements.drag(f.nominal, f.felt, wind.wind_n, self._config.drag, wind.sigma)])
+        f.take([measurements.drag(f.nominal, f.felt, wind.wind_n, self._config.drag, wind.sigma(self._leaned))])
 
     # Start
 

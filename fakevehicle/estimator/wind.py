@@ -2,8 +2,13 @@
 
     w = v_n - R (v_air),    v_air,xy = -f_xy / k,    v_air,z as the velocity has it
 
-is watched while GPS is good and averaged over `TIME`; its scatter (gusts, GPS noise) goes into the noise of the
-airspeed that takes over when GPS is gone (`measurements.drag`).
+is watched while GPS is good and averaged; its scatter s (gusts, GPS noise) goes into the noise of the
+airspeed that takes over when GPS is gone (`measurements.drag`). What the mean itself is wrong by stays wrong for as
+long as GPS is gone: the n-th airspeed is taken with
+
+    R = C (s^2 + floor^2) + n s^2 min(1, 2 T_gust / T_mean)
+
+so that many of them together never claim to know more than the mean does.
 """
 
 import math
@@ -13,8 +18,10 @@ import numpy as np
 from fakevehicle.estimator.strapdown import matrix
 from fakevehicle.vocabulary import FloatArray
 
-SHARE = 0.01
-"""Of a new word in the average: 10 s at ten fixes a second."""
+SHARE, PERIOD_S = 0.003, 0.1
+"""Of a new word in the average, and the spacing of words: a memory of 33 s, which is worth a mean over twice that."""
+GUST_S = 5.0
+"""Time in which a gust forgets near the ground [s]."""
 ENOUGH = 30
 """Words before the average is used; the first `SKIP` are of the take-off and count for nothing."""
 SKIP = 20
@@ -42,10 +49,11 @@ class WindWatch:
         """Whether there were enough words."""
         return self._words >= ENOUGH
 
-    @property
-    def sigma(self) -> float:
-        """1 sigma [m/s] for `measurements.drag`, fused five times a second."""
-        return math.sqrt(CORRELATION * (self._variance + FLOOR**2))
+    def sigma(self, n: int) -> float:
+        """1 sigma [m/s] for `measurements.drag`, of the n-th since GPS was lost; five come a second."""
+        averaged_s = PERIOD_S * min(self._words - SKIP, 2.0 / SHARE)
+        stays = self._variance * min(1.0, 2.0 * GUST_S / averaged_s)
+        return math.sqrt(CORRELATION * (self._variance + FLOOR**2) + n * stays)
 
     def note(self, nominal: FloatArray, felt_b: FloatArray, k: float) -> None:
         """Take in what one fix and the specific force (b, bias removed) say; parameters as in `measurements.drag`."""

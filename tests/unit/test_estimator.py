@@ -12,6 +12,7 @@ from fakevehicle.airframe import load_airframe
 from fakevehicle.estimator import measurements
 from fakevehicle.estimator.eskf import ErrorStateFilter
 from fakevehicle.estimator.strapdown import normalised_innovation_squared, propagate
+from fakevehicle.estimator.wind import WindWatch
 from fakevehicle.flight import PARAMETERS, FlightStack
 from fakevehicle.params import ParameterSet
 from fakevehicle.sensors.barometer import Barometer
@@ -266,3 +267,26 @@ def test_a_long_flight_makes_the_filter_neither_surer_than_it_is_right_nor_more_
     assert 12.0 < float(np.mean(early)) < 18.5
     assert 12.0 < float(np.mean(late)) < 18.5
     assert 0.3 < float(np.mean(heights)) < 1.7
+
+
+@pytest.mark.parametrize("gust", [0.0, 1.5])
+def test_the_wind_is_found_from_drag_and_gps_and_told_no_better_than_gusts_let_it_be(gust: float) -> None:
+    """Flights through a wind of known mean, whose gusts forget in 5 s; the mean's error is judged over many."""
+    rng, k, apart, told = np.random.default_rng(12), 0.12, [], []
+    turn = Rotation.from_euler("ZYX", [40.0, 8.0, -5.0], degrees=True)
+    x, y, z, w = turn.as_quat()
+    for _ in range(40):
+        watch, blowing = WindWatch(), gust * rng.standard_normal(2)
+        for _ in range(600):
+            keep = math.exp(-0.1 / 5.0)
+            blowing = keep * blowing + gust * math.sqrt(1 - keep * keep) * rng.standard_normal(2)
+            velocity = np.array([2.0, -1.0, 0.3])
+            air_b = turn.inv().apply(velocity - np.array([4.0 + blowing[0], -2.0 + blowing[1], 0.0]))
+            nominal = np.zeros(16)
+            nominal[3:6], nominal[6:10] = velocity, [w, x, y, z]
+            watch.note(nominal, -k * air_b, k)
+        apart.append(watch.wind_n[:2] - np.array([4.0, -2.0]))
+        told.append(watch.sigma(10_000) / 100.0)  # what is left of 10 000 airspeeds taken together
+    wrong = float(np.sqrt(np.mean(np.square(apart))))
+    assert wrong < 0.02 if gust == 0.0 else 0.3 < wrong < 0.8
+    assert wrong < 1.5 * float(np.mean(told))
