@@ -54,6 +54,7 @@ class FenceMonitor:
 
     Attributes
     ----------
+    enabled : whether it counts; switched by command.
     breaches : how many have begun; `since_us` is when the newest did, `breach` the one that holds now.
     """
 
@@ -63,6 +64,7 @@ class FenceMonitor:
         self._places = places
         self._zones: tuple[_Zone, ...] = ()
         self._made_of: tuple[object, Geodetic | None] = (None, None)
+        self.enabled = True
         self.breach: Breach | None = None
         self.breaches = 0
         self.since_us = 0
@@ -84,7 +86,7 @@ class FenceMonitor:
 
     def breach_at(self, position_n: FloatArray, home_n: FloatArray) -> Breach | None:
         """What being at a point would breach, (3,) local NED [m]; None: it is allowed."""
-        if not self.present:
+        if not (self.enabled and self.present):
             return None
         north, east, down = position_n.tolist()
         far, high = self._parameters["GF_MAX_HOR_DIST"], self._parameters["GF_MAX_VER_DIST"]

@@ -164,6 +164,7 @@ class Vehicle:
                 self._stack.inject,
                 self._stack.mend,
                 self._telemetry.home_position,
+                self._telemetry.gps_global_origin,
             ),
             NoShell(self._outbox, self._warn_rarely),
             metadata,

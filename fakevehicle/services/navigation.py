@@ -40,7 +40,7 @@ class Navigation(Service):
     missions : knows the items as clients count them.
     outbox, places : as everywhere.
     inject, mend : give a fault to the flight stack, and end those of a sensor.
-    announce_home : builds HOME_POSITION.
+    announce_home, announce_origin : build HOME_POSITION and GPS_GLOBAL_ORIGIN.
     """
 
     def __init__(
@@ -52,6 +52,7 @@ class Navigation(Service):
         inject: Callable[[Fault], None],
         mend: Callable[[Sensor, int], None],
         announce_home: Builder,
+        announce_origin: Builder,
     ) -> None:
         self._supervisor = supervisor
         self._missions = missions
@@ -60,6 +61,7 @@ class Navigation(Service):
         self._inject = inject
         self._mend = mend
         self._announce_home = announce_home
+        self._announce_origin = announce_origin
         self._breached = False
 
     def routes(self) -> Mapping[int, Handler]:
@@ -67,6 +69,7 @@ class Navigation(Service):
         return {
             _m.MAVLINK_MSG_ID_HEARTBEAT: self.heartbeat,
             _m.MAVLINK_MSG_ID_SET_HOME_POSITION: self.set_home_position,
+            _m.MAVLINK_MSG_ID_SET_GPS_GLOBAL_ORIGIN: self.set_origin,
         }
 
     def commands(self) -> Mapping[int, CommandSpec]:
@@ -74,7 +77,9 @@ class Navigation(Service):
         return {
             _m.MAV_CMD_DO_CHANGE_SPEED: CommandSpec(self._change_speed, "Speed change", (1, 2, 3)),
             _m.MAV_CMD_DO_SET_HOME: CommandSpec(self._set_home, "Home", (1, 4, 5, 6, 7)),
+            _m.MAV_CMD_DO_FLIGHTTERMINATION: CommandSpec(self._terminate, "Termination", (1,)),
             _m.MAV_CMD_DO_PAUSE_CONTINUE: CommandSpec(self._pause, "Pause", (1,)),
+            _m.MAV_CMD_DO_FENCE_ENABLE: CommandSpec(self._enable_fence, "Fence", (1,)),
             _m.MAV_CMD_DO_SET_MISSION_CURRENT: CommandSpec(self._set_current, "Mission item", (1, 2)),
             _m.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN: CommandSpec(self._reboot, "Reboot", (1, 2, 3, 4, 5, 6, 7)),
             _m.MAV_CMD_MISSION_START: CommandSpec(self._start, "Mission start", (1, 2)),
@@ -111,6 +116,13 @@ class Navigation(Service):
         )
 
     # Home
+
+    def set_origin(self, sender: Sender, _message: Message, _now_us: int) -> None:
+        """The origin is where the receiver put it: it is told again, and that it stays."""
+        message = self._announce_origin()
+        if message is not None:
+            self._outbox.answer(sender, message)
+        self._outbox.text(_m.MAV_SEVERITY_WARNING, "Origin denied: it is the first fix's")
 
     def set_home_position(self, sender: Sender, message: Message, now_us: int) -> None:
         """The old message: latitude and longitude e7, altitude in mm; answered by HOME_POSITION."""
@@ -194,6 +206,17 @@ class Navigation(Service):
         return ACCEPTED
 
     # The vehicle itself
+
+    def _terminate(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
+        """Motors off, wherever it is; parameter 1 above a half, as PX4 has it."""
+        return judged(self._supervisor.ask(Event.ASK_KILL, now_us)) if command.params[0] > 0.5 else ACCEPTED
+
+    def _enable_fence(self, _sender: Sender, command: Command, _now_us: int) -> Verdict:
+        """0 off, 1 on; the floor alone (2) is nothing this fence has."""
+        if command.params[0] not in (0.0, 1.0):
+            return denied(f"param1 is {command.params[0]:g}, expected 0 or 1")
+        self._supervisor.fence.enabled = command.params[0] == 1.0
+        return ACCEPTED
 
     def _reboot(self, _sender: Sender, command: Command, _now_us: int) -> Verdict:
         """A simulated vehicle is begun anew by beginning a new one; only the request to do nothing is accepted."""

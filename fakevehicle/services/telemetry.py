@@ -152,10 +152,11 @@ class Telemetry(Service):
             health |= mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
         if s.fence.breach is None:
             health |= mavlink.MAV_SYS_STATUS_GEOFENCE
-        present = _SENSORS | (mavlink.MAV_SYS_STATUS_GEOFENCE if s.fence.present else 0)
+        fence = mavlink.MAV_SYS_STATUS_GEOFENCE if s.fence.present else 0
+        enabled = _SENSORS | (fence if s.fence.enabled else 0)
         millivolts, centiamps = round(b.voltage * 1e3), round(b.current * 1e2)
         return mavlink.MAVLink_sys_status_message(
-            present, present, health, 0, millivolts, centiamps, round(b.remaining * 100), 0, 0, 0, 0, 0, 0
+            _SENSORS | fence, enabled, health, 0, millivolts, centiamps, round(b.remaining * 100), 0, 0, 0, 0, 0, 0
         )
 
     def system_time(self) -> Message:

@@ -1,4 +1,4 @@
-"""MAVSDK (PyPI, its current synchronous API) loads and flies a mission, and loads a fence."""
+"""MAVSDK (PyPI, its current synchronous API) loads and flies a mission, loads a fence, and flies by attitude."""
 
 import math
 import time
@@ -14,6 +14,7 @@ from mavsdk import ComponentType, Configuration, Mavsdk  # noqa: E402  (after th
 from mavsdk.plugins.action import Action  # noqa: E402
 from mavsdk.plugins.geofence import FenceType, Geofence, GeofenceData, Point, Polygon  # noqa: E402
 from mavsdk.plugins.mission import Mission, MissionItem, MissionPlan  # noqa: E402
+from mavsdk.plugins.offboard import Attitude, AttitudeRate, Offboard  # noqa: E402
 from mavsdk.plugins.telemetry import FlightMode, Telemetry  # noqa: E402
 
 pytestmark = pytest.mark.udp
@@ -102,3 +103,27 @@ def test_a_fence_is_loaded_and_cleared(system: Any) -> None:
     (polygon,) = fence.download_geofence().polygons
     assert [p.latitude_deg for p in polygon.points] == pytest.approx([p.latitude_deg for p in corners])
     fence.clear_geofence()
+
+
+def test_attitudes_and_body_rates_are_flown(system: Any) -> None:
+    action, telemetry, offboard = Action(system), Telemetry(system), Offboard(system)
+    until(telemetry.health_all_ok, 20, "health")
+    action.set_takeoff_altitude(15.0)
+    action.arm()
+    action.takeoff()
+    until(lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air(), 30, "takeoff")
+    offboard.set_attitude(Attitude(5.0, -5.0, 40.0, 0.6))
+    offboard.start()
+
+    def off() -> float:
+        euler = telemetry.attitude_euler()
+        return max(abs(euler.roll_deg - 5.0), abs(euler.pitch_deg + 5.0), abs(euler.yaw_deg - 40.0))
+
+    until(lambda: off() < 2.0, 5, "the attitude")
+    assert telemetry.flight_mode() == FlightMode.OFFBOARD
+    offboard.set_attitude_rate(AttitudeRate(0.0, 0.0, 30.0, 0.6))
+    until(lambda: abs(telemetry.attitude_euler().yaw_deg - 40.0) > 30.0, 5, "the turn")
+    offboard.stop()
+    action.set_current_speed(3.0)
+    action.land()
+    until(lambda: not telemetry.armed(), 60, "landing")

@@ -531,6 +531,35 @@ def test_standing_in_an_exclusion_zone_forbids_arming(pilot: Pilot) -> None:
     assert "outside the fence" in pilot.texts()[-1]
 
 
+def test_a_fence_that_is_switched_off_keeps_nobody(pilot: Pilot) -> None:
+    def bits(field: str) -> bool:
+        pilot.run(0.3)
+        return bool(getattr(pilot.last("SYS_STATUS"), f"onboard_control_sensors_{field}") & m.MAV_SYS_STATUS_GEOFENCE)
+
+    assert [bits("present"), bits("health")] == [False, True]
+    assert upload(pilot, square_fence(5.0, 5002), 1) == 0
+    assert [bits("present"), bits("enabled"), bits("health")] == [True, True, False]
+    assert pilot.command(207, 0) == ACCEPTED
+    assert [bits("present"), bits("enabled"), bits("health")] == [True, False, True]
+    assert pilot.command(400, 1) == ACCEPTED
+    assert pilot.command(207, 2) == DENIED
+
+
+def test_a_termination_stops_the_motors_in_the_air(pilot: Pilot) -> None:
+    airborne(pilot)
+    assert pilot.command(185, 0) == ACCEPTED
+    assert pilot.armed
+    assert pilot.command(185, 1) == ACCEPTED
+    assert not pilot.armed
+
+
+def test_the_origin_stays_and_is_told_to_who_wants_to_put_it_elsewhere(pilot: Pilot) -> None:
+    pilot.send(m.MAVLink_set_gps_global_origin_message(1, 470000000, 80000000, 0))
+    (origin,) = [h for h in pilot.tick() if h.get_type() == "GPS_GLOBAL_ORIGIN"]
+    assert origin.latitude == pytest.approx(LATITUDE * 1e7, abs=10)
+    assert pilot.texts()[-1].startswith("Origin denied")
+
+
 def test_the_ceiling_is_a_fence_too(pilot: Pilot) -> None:
     pilot.vehicle.parameters.set("GF_MAX_VER_DIST", 6.0)
     airborne(pilot)
