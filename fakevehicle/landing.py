@@ -5,8 +5,8 @@ of the thrust and nothing moves: in free fall the speed gives it away, in a stea
 
 Before that it touches the ground, when it is asked to sink and does not although the thrust is below a hover's. Whoever
 flies it should then let the motors idle: loops that go on pulling feet over the ground against the wind wind themselves
-up, lean, and keep the thrust too high for the landing to be seen. Were it wrong, in the air, 0.3 m/s of sinking would
-end it, which idling motors give within a few hundredths of a second.
+up, lean, and keep the thrust too high for the landing to be seen. Were it wrong, in the air, 0.6 m/s of sinking would
+end it, which idling motors give within six hundredths of a second.
 """
 
 import math
@@ -24,6 +24,7 @@ LAND_DRIFT = 1.0  # [m/s]
 LAND_TIME_US = 1_000_000
 TOUCH_THRUST = 0.85
 TOUCH_SINK = 0.1  # [m/s] either way; every descent is asked to be faster
+LET_GO_SINK = 0.6  # [m/s] either way: a vehicle that leaned into the wind falls back on its feet
 TOUCH_TIME_US = 400_000
 
 
@@ -53,7 +54,7 @@ class LandDetector:
         """
         z, vn, ve, vd = glance.z, glance.vx, glance.vy, glance.vz
         thrust = glance.thrust / self.hover if armed else 0.0
-        slow = LAND_SINK if self.touching else TOUCH_SINK  # letting go shakes the feet a little
+        slow = LET_GO_SINK if self.touching else TOUCH_SINK
         resting = thrust < TOUCH_THRUST and abs(vd) < slow and math.hypot(vn, ve) < LAND_DRIFT
         if not (self.airborne and sinking and resting):
             self._still_since_us = None

@@ -2,12 +2,15 @@
 # kernels: numba types them by their arguments, which the docstrings name
 """How the loops hang together: position -> velocity -> attitude (250 Hz) -> body rates (1 kHz) -> mixer.
 
-    v_sp = v_ff + P_p (p_sp - p)                         limited in speed
+    v_sp = v_ff + P_p e,  e = p_sp - p                   sideways no faster than can be braked, below; limited in speed
     u_ff = a_ff (1 + T s (1 + 1/LEAD))/(1 + T s/LEAD)    ahead by the T that attitude takes to follow
     a_sp = FOPID-TID(v_sp, v; u_ff)                      limited in tilt, then by what the rotors can lift
     thrust direction -z_b = (a_sp - g e3)/|.|, yaw from the setpoint  =>  q_sp;  T = m (g e3 - a_sp) . z_b
     omega_sp = P_q * (tilt error, then yaw error) + yaw-rate feed-forward
     tau = J FOPID-TID(omega_sp, omega) + omega x J omega
+
+Far from the place, P_p e would ask for more braking than the tilt allows, and pass by. From |e| = a/P_p^2 on, where its
+slope is that of a constant deceleration a, sqrt(2 a (|e| - a/(2 P_p^2))) takes its place: v^2/2 falls by a per metre.
 
 The attitude law is the reduced one (Brescianini, Hehn & D'Andrea 2013): tilt is corrected along the shortest turn, the
 rest of the error is a turn about z_b and gets its own, smaller gain.
@@ -46,6 +49,7 @@ GAINS = np.dtype(
         ("attitude_p", "f8", (3,)),
         ("rate_max", "f8", (3,)),
         ("lead", "f8"),  # T [s]
+        ("brake", "f8"),  # a, sideways [m/s^2]
         ("speed_xy", "f8"),
         ("speed_up", "f8"),
         ("speed_down", "f8"),
@@ -104,11 +108,18 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
             lost = min(max(lost, -RETURN * period), RETURN * period)
         shift[i] -= lost
     # position -> velocity
+    far = math.hypot(setpoint[0] - nav[0] + shift[0], setpoint[1] - nav[1] + shift[1])
+    linear = gains.brake / gains.position_p[0] ** 2 if gains.position_p[0] > 0.0 else math.inf
+    brake = 1.0  # NaN compares false: no place, or a place on one axis only, is followed linearly
+    if far > linear:
+        brake = math.sqrt(2.0 * gains.brake * (far - 0.5 * linear)) / (gains.position_p[0] * far)
+    bound = 2.0 * gains.thrust_max / body.mass  # of what the lead looks at
     for i in range(3):
         p, v, a = setpoint[i], setpoint[3 + i], setpoint[6 + i]
         if not math.isnan(p):
             sp[i] = p
-            sp[3 + i] = (0.0 if math.isnan(v) else v) + gains.position_p[i] * (p - nav[i] + shift[i])
+            asks = gains.position_p[i] * (p - nav[i] + shift[i])
+            sp[3 + i] = (0.0 if math.isnan(v) else v) + (brake * asks if i < 2 else asks)
         elif not math.isnan(v):
             sp[i], sp[3 + i] = math.nan, v
         else:
@@ -116,11 +127,14 @@ def outer_loops(setpoint, nav, gains, status, body, bank, coefficients, states, 
         sp[6 + i] = 0.0 if math.isnan(a) else a
         ahead[i] = sp[6 + i]
         if i < 2:  # height is thrust's, which hardly lags
-            if math.isnan(asked[i]):
-                asked[i] = a
-            asked[i] += smooth * (a - asked[i])  # NaN when nothing is asked for: no jump when something is again
-            if not math.isnan(a):
-                ahead[i] += LEAD * (a - asked[i])
+            if math.isnan(a):
+                asked[i] = math.nan  # so that there is no jump when something is asked for again
+            else:
+                held = min(max(a, -bound), bound)
+                if math.isnan(asked[i]):
+                    asked[i] = held
+                asked[i] += smooth * (held - asked[i])
+                ahead[i] += LEAD * (held - asked[i])
     speed = math.hypot(sp[3], sp[4])
     if speed > gains.speed_xy:  # NaN compares false
         sp[3] *= gains.speed_xy / speed

@@ -43,7 +43,7 @@ class LoopDefaults:
 FOPID_LOOPS = (
     LoopDefaults(
         name="VXY", what="horizontal velocity", unit="1/s", loops=(0, 1), band=(0.05, 75.0), cutoff=30.0,
-        kp=3.5, kt=0.8, ki=1.0, ki0=0.0, kd=0.0, lam=0.9, mu=0.9, tilt_n=3.0, limit=6.0,
+        kp=5.0, kt=0.8, ki=2.5, ki0=0.0, kd=0.0, lam=0.9, mu=0.9, tilt_n=3.0, limit=6.0,
     ),
     LoopDefaults(
         name="VZ", what="vertical velocity", unit="1/s", loops=(2,), band=(0.05, 75.0), cutoff=30.0,
@@ -99,10 +99,11 @@ def _loop_parameters(loop: LoopDefaults) -> tuple[Parameter, ...]:
 
 
 PARAMETERS: tuple[Parameter, ...] = (
-    Parameter("MPC_XY_P", 1.5, 0, 5, "1/s", "horizontal position gain"),
+    Parameter("MPC_XY_P", 2.0, 0, 5, "1/s", "horizontal position gain"),
     Parameter("MPC_Z_P", 1.2, 0, 5, "1/s", "vertical position gain"),
+    Parameter("MPC_ACC_BRAKE", 5.0, 0.5, 15, "m/s^2", "deceleration sideways that a place far off is approached with"),
     Parameter(
-        "MPC_ACC_LEAD", 0.0, 0, 0.5, "s", "how far ahead acceleration asked for sideways is looked: attitude's lag"
+        "MPC_ACC_LEAD", 0.07, 0, 0.5, "s", "how far ahead acceleration asked for sideways is looked: attitude's lag"
     ),
     Parameter("MPC_XY_VEL_MAX", 12.0, 0.5, 20, "m/s", "highest horizontal speed the position loop asks for"),
     Parameter("MPC_Z_VEL_MAX_UP", 3.0, 0.5, 8, "m/s", "highest climb rate the position loop asks for"),
@@ -146,7 +147,7 @@ class ControlTables:
         g["position_p"] = [p["MPC_XY_P"], p["MPC_XY_P"], p["MPC_Z_P"]]
         g["attitude_p"] = [p["MC_ROLL_P"], p["MC_PITCH_P"], p["MC_YAW_P"]]
         g["rate_max"] = np.radians([p["MC_ROLLRATE_MAX"], p["MC_PITCHRATE_MAX"], p["MC_YAWRATE_MAX"]])
-        g["lead"] = p["MPC_ACC_LEAD"]
+        g["lead"], g["brake"] = p["MPC_ACC_LEAD"], p["MPC_ACC_BRAKE"]
         g["speed_xy"], g["speed_up"] = p["MPC_XY_VEL_MAX"], p["MPC_Z_VEL_MAX_UP"]
         g["speed_down"] = p["MPC_Z_VEL_MAX_DN"]
         g["tan_tilt"] = math.tan(math.radians(p["MPC_TILTMAX_AIR"]))

@@ -111,6 +111,21 @@ def test_an_acceleration_alone_keeps_all_of_the_trim_the_velocity_loop_had_found
         assert tables.status[0]["thrust"] == pytest.approx(held, rel=1e-3)
 
 
+@pytest.mark.parametrize(("away", "speed"), [(1.0, 2.0), (10.0, math.sqrt(2 * 5.0 * (10.0 - 0.5 * 5.0 / 2.0**2)))])
+def test_a_place_is_approached_in_proportion_when_near_and_with_a_constant_deceleration_from_far(
+    away: float, speed: float
+) -> None:
+    over = {"MPC_XY_P": 2.0, "MPC_ACC_BRAKE": 5.0, "MPC_XY_VEL_MAX": 20.0}
+    tables = ControlTables(X500, ParameterSet(PARAMETERS, PLAIN | over))
+    setpoint, nav = np.full(SETPOINT, np.nan), np.zeros(NAVIGATION)
+    nav[6], setpoint[:3] = 1.0, [0.6 * away, -0.8 * away, 0.0]
+    bank, body = tables.bank, X500.record()[0]
+    outer_loops(
+        setpoint, nav, tables.gains[0], tables.status[0], body, bank.loops, bank.coefficients, bank.states, 0.004
+    )
+    np.testing.assert_allclose(tables.status[0]["followed"][3:5], [0.6 * speed, -0.8 * speed], rtol=1e-12)
+
+
 def test_an_acceleration_that_grows_is_looked_ahead_of_by_the_lead_and_one_that_comes_anew_makes_no_jump() -> None:
     tables = ControlTables(X500, ParameterSet(PARAMETERS, PLAIN | {"MPC_ACC_LEAD": 0.08}))
     tables.rest(0.0)
