@@ -48,7 +48,7 @@ from fakevehicle.vocabulary import (
 
 BATTERY_US = 100_000
 """The battery is drawn from this often, and motors break then."""
-VALIDITY_US = 20_000
+VALIDITY_US = 40_000
 """How long a glance goes by what it has found to be valid."""
 BLOCK = 256
 """Ticks whose random draws are made at once."""

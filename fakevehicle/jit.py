@@ -26,8 +26,11 @@ _STAMP = _stamp()
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile in nopython mode, without the GIL, cached on disk; no fastmath, so that results repeat bit for bit."""
-    dispatcher = njit(cache=True, nogil=True)(function)
+    """Compile in nopython mode, without the GIL, cached on disk; no fastmath, so that results repeat bit for bit.
+
+    A division by zero gives what IEEE 754 says, not an exception: whoever looks for divergence looks for that.
+    """
+    dispatcher = njit(cache=True, nogil=True, error_model="numpy")(function)
     # numba has no public way to add files to a cache's stamp; the test of this module notices when the name moves.
     dispatcher._cache._cache_file._source_stamp = _STAMP
     compiled: Callable[..., Any] = dispatcher
