@@ -56,7 +56,7 @@ def test_the_ground_is_felt_after_two_fifths_of_a_second_and_called_a_landing_a_
     assert not tale.tell(0.40, sink=0.02, thrust=0.4)
     assert tale.tell(0.04, sink=0.02, thrust=0.4)
     assert tale.detector.airborne
-    tale.tell(0.1, sink=0.5, thrust=0.02)  # it falls back on its feet when the motors let go
+    tale.tell(0.1, sink=0.28, thrust=0.02)  # it falls back on its feet when the motors let go
     assert tale.detector.touching
     tale.tell(0.88, sink=0.0, thrust=0.02)
     assert tale.detector.airborne
@@ -69,6 +69,7 @@ def test_the_ground_is_felt_after_two_fifths_of_a_second_and_called_a_landing_a_
 def test_a_false_touch_ends_with_the_first_sinking() -> None:
     tale = Tale()
     assert tale.tell(0.5, sink=0.0, thrust=0.4)
+    assert tale.tell(0.02, sink=0.59, thrust=0.02)
     tale.tell(0.02, sink=0.61, thrust=0.02)
     assert not tale.detector.touching
     assert not tale.tell(0.38, sink=0.0, thrust=0.4)  # and it has to be felt anew
