@@ -16,9 +16,10 @@ considered, not estimated (Schmidt's consider states, in the limit of a drift mu
 is what `Estimate` reports. Gates need neither: the innovation compares two heights that share both errors.
 
 When sensors fail (`aiding` has the rules). Without the barometer the height is GPS's, less what the two last differed
-by. Without GPS the velocity leans on the rotors' drag and the last known wind (`wind`), and position drifts as that is
-wrong. A fix after a silence, and a sensor refused for `reset_after_us`, are believed whatever they say; the jump this
-makes goes to the output at once and is told in `resets`, so that the loops can tell it from motion.
+by. Without GPS the velocity leans on the rotors' drag and the last known wind (`wind`), or on standing still, and
+position drifts as that is wrong. A fix after a silence, and a sensor refused for `reset_after_us`, are believed
+whatever they say; the jump this makes goes to the output at once and is told in `resets`, so that the loops can tell it
+from motion.
 """
 
 import math
@@ -55,6 +56,8 @@ SETTLE_US = 2_000_000
 """After a reset the first fixes still correct it by much; for this long they do it as a part of the jump [us]."""
 HANDOVER_US = 300_000
 """GPS's height takes over when the barometer has not been accepted for this long [us]."""
+STANDING_RATE, STANDING_FORCE, STANDING_SPEED = 0.1, 1.0, 0.1
+"""An IMU that turns slower [rad/s] and feels its weight to within this [m/s^2] stands; 1 sigma of its speed [m/s]."""
 _NONE: frozenset[str] = frozenset()
 _HORIZONTAL, _DOWN, _VELOCITY, _YAW = (6, 7), (8,), (3, 4, 5), (2,)
 
@@ -179,10 +182,13 @@ class Estimator:
         self.horizon_us = horizon_us = now_us - self._lag_us
         if self._waiting and self._waiting[0][0] <= horizon_us:
             self._fuse_due(horizon_us, now_us)
-        if self.flying and horizon_us - self._drag_us >= DRAG_US:
+        if horizon_us - self._drag_us >= DRAG_US:
             self._drag_us = horizon_us
-            self._lean_on_drag(now_us)
-            self._watch_imu(now_us)
+            if self.flying:
+                self._lean_on_drag(now_us)
+                self._watch_imu(now_us)
+            else:
+                self._stand(now_us)
         predictor = self.predictor[0]
         predictor["horizon"], predictor["moved"] = horizon % self._rows, 1
 
@@ -337,6 +343,20 @@ class Estimator:
         assert self.filter is not None
         f, wind = self.filter, self._wind
         f.take([measurements.drag(f.nominal, f.felt, wind.wind_n, self._config.drag, wind.sigma(self._leaned))])
+
+    def _stand(self, now_us: int) -> None:
+        """Without GPS, with motors that carry nothing and an IMU that feels its weight only: it stands."""
+        if self._aids["gps_velocity"].fresh(now_us):
+            return
+        assert self.filter is not None
+        sample = self.imu[self._row]
+        turning, felt = math.hypot(*sample[:3].tolist()), math.hypot(*sample[3:].tolist())
+        if turning > STANDING_RATE or abs(felt - self._gravity) > STANDING_FORCE:
+            return
+        still = measurements.gps_velocity(self.filter.nominal, np.zeros(3), STANDING_SPEED)
+        if not self.filter.weigh(still, self._gate[3]).accepted:
+            self.filter.forget(_VELOCITY, 1.0)
+        self.filter.take([still])
 
     # Start
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.bench_estimator import HOVER, Belief, Run, believe, inside
-from fakevehicle.vocabulary import FloatArray
+from fakevehicle.vocabulary import FloatArray, Setpoint
 
 
 def judge(belief: Belief) -> None:
@@ -159,6 +159,18 @@ def test_a_gyro_that_stops_is_told_within_half_a_second() -> None:
     assert run.stack.estimate.attitude_valid
     run.hover(0.5)
     assert not run.stack.estimate.attitude_valid
+
+
+def test_without_gps_a_vehicle_that_has_landed_knows_that_it_stands_still() -> None:
+    run = Run(seed=12, faults=("gps:off@21",))
+    run.take_off()
+    while run.stack._x[2] < -0.05:
+        sinking = np.array([0.0, 0.0, 0.7])
+        run.tick(Setpoint(position_n=np.full(3, np.nan), velocity_n=sinking, acceleration_n=np.zeros(3), yaw=0.5))
+    for _ in range(500):
+        run.tick(None)
+    assert float(np.linalg.norm(run.stack.estimator.out[3:6])) < 0.1
+    assert not run.stack.estimate.velocity_valid
 
 
 def test_the_same_faults_and_seed_give_the_same_flight() -> None:
