@@ -46,6 +46,7 @@ ALIASES = (
 )
 
 OWN = (
+    Parameter("ARMING_CHECK", 1, 1, 1, "", "All arming checks are made, always", _I),
     Parameter("FORMAT_VERSION", 120, 0, 32767, "", "Format of the stored parameters; kept, and of no effect", _I),
     Parameter("FENCE_ALT_MAX", 100.0, 10.0, 1000.0, "m", "Fence, when enabled: highest above home"),
     Parameter("FENCE_RADIUS", 300.0, 30.0, 10_000.0, "m", "Fence, when enabled: farthest from home"),

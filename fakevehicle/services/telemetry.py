@@ -107,6 +107,7 @@ class Telemetry(Service):
             m.MAVLINK_MSG_ID_ALTITUDE: self.altitude,
             m.MAVLINK_MSG_ID_VFR_HUD: self.vfr_hud,
             m.MAVLINK_MSG_ID_POSITION_TARGET_LOCAL_NED: self.position_target,
+            m.MAVLINK_MSG_ID_POSITION_TARGET_GLOBAL_INT: self.position_target_global,
             m.MAVLINK_MSG_ID_ATTITUDE_TARGET: self.attitude_target,
             m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: self.servo_output_raw,
             m.MAVLINK_MSG_ID_BATTERY_STATUS: self.battery_status,
@@ -336,6 +337,28 @@ class Telemetry(Service):
             mavlink.MAV_FRAME_LOCAL_NED,
             0,
             *s.position_n.tolist(),
+            *s.velocity_n.tolist(),
+            *s.acceleration_n.tolist(),
+            s.yaw,
+            s.yaw_rate,
+        )
+
+    def position_target_global(self) -> Message | None:
+        """The place the position loop follows, altitude above mean sea level; nothing while it follows none."""
+        s = self._stack.control.setpoint
+        place = None
+        if self._supervisor.armed and bool(np.isfinite(s.position_n).all()):
+            place = self._places.e7(s.position_n)
+        if place is None:
+            return None
+        latitude, longitude, millimetres = place
+        return mavlink.MAVLink_position_target_global_int_message(
+            self._boot_ms,
+            mavlink.MAV_FRAME_GLOBAL_INT,
+            0,
+            latitude,
+            longitude,
+            millimetres * 1e-3,
             *s.velocity_n.tolist(),
             *s.acceleration_n.tolist(),
             s.yaw,

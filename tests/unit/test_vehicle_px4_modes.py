@@ -47,6 +47,18 @@ def test_an_index_that_is_none_is_denied(pilot: Pilot, index: float) -> None:
     assert listed(pilot) == []
 
 
+def test_the_place_that_is_flown_to_is_told_in_degrees_and_above_sea_level(pilot: Pilot) -> None:
+    target = _m.MAVLINK_MSG_ID_POSITION_TARGET_GLOBAL_INT
+    assert pilot.command(REQUEST, target) != ACCEPTED  # nothing is flown to yet
+    assert pilot.command(_m.MAV_CMD_COMPONENT_ARM_DISARM, 1) == ACCEPTED
+    assert pilot.command(_m.MAV_CMD_NAV_TAKEOFF) == ACCEPTED
+    pilot.run(8)
+    assert pilot.command(REQUEST, target) == ACCEPTED
+    told = pilot.last("POSITION_TARGET_GLOBAL_INT")
+    assert (told.lat_int, told.lon_int) == (473977420, 85455940)
+    assert told.alt == pytest.approx(488.0 + 2.5, abs=0.01)  # MIS_TAKEOFF_ALT
+
+
 def test_no_other_message_is_asked_for_by_an_index(pilot: Pilot) -> None:
     assert pilot.command(REQUEST, _m.MAVLINK_MSG_ID_AUTOPILOT_VERSION, 1) == DENIED
     assert pilot.command(REQUEST, _m.MAVLINK_MSG_ID_AVAILABLE_MODES_MONITOR) == ACCEPTED
