@@ -100,12 +100,11 @@ class Course:
     def descend(self, now_us: int, glance: Glance, ground_z: float) -> Setpoint:
         """Sink to the ground, at down coordinate `ground_z` [m], below the anchor.
 
-        Without a position it sinks level, wherever the wind takes it: an acceleration of zero is all that can be asked.
+        Without a position it stands still by the velocity the estimate still has: some seconds old that is a metre a
+        second wrong, where sinking level would let the way it had and the wind carry it off.
         """
         p = self._parameters
         speed = landing_speed(ground_z - glance.z, p["MPC_LAND_SPEED"], p["MPC_Z_V_AUTO_DN"])
         if glance.position_valid:
             return descent(self.anchor_n, speed, self.yaw(now_us))
-        nan = math.nan
-        across = 0.0 if glance.velocity_valid else nan
-        return Setpoint(velocity_n=np.array([across, across, speed]), acceleration_n=np.zeros(3), yaw=self.yaw(now_us))
+        return Setpoint(velocity_n=np.array([0.0, 0.0, speed]), acceleration_n=np.zeros(3), yaw=self.yaw(now_us))

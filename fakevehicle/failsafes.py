@@ -19,7 +19,7 @@ _I = ParameterType.INT32
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter("COM_OF_LOSS_T", 1.0, 0.1, 60.0, "s", "Setpoints missing for this long end OFFBOARD"),
     Parameter("COM_OBL_RC_ACT", 5, 3, 5, "", "What follows then: 3 return, 4 land, 5 hold", _I),
-    Parameter("COM_POS_FS_DELAY", 3.0, 0.0, 30.0, "s", "Position not known for this long in flight is lost"),
+    Parameter("COM_POS_FS_DELAY", 2.0, 0.0, 30.0, "s", "Position not known for this long in flight is lost"),
     Parameter("COM_DL_LOSS_T", 10.0, 1.0, 300.0, "s", "No ground station's heartbeat for this long: data link lost"),
     Parameter("NAV_DLL_ACT", 0, 0, 6, "", "What follows: 0 nothing, 1 hold, 2 return, 3 land, 5 and 6 motors off", _I),
     Parameter("BAT_LOW_THR", 0.15, 0.05, 0.9, "", "Charge left that is low"),

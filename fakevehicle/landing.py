@@ -21,6 +21,7 @@ LIFT_TIME_US = 80_000
 LAND_THRUST = 0.5
 LAND_SINK = 0.3  # [m/s] either way
 LAND_DRIFT = 1.0  # [m/s]
+BLIND_DRIFT = 3.0  # [m/s] while the velocity is not known: it is still the newest guess
 LAND_TIME_US = 1_000_000
 TOUCH_THRUST = 0.85
 TOUCH_SINK = 0.1  # [m/s] either way; every descent is asked to be faster
@@ -54,15 +55,16 @@ class LandDetector:
         """
         z, vn, ve, vd = glance.z, glance.vx, glance.vy, glance.vz
         thrust = glance.thrust / self.hover if armed else 0.0
+        drifting, limit = math.hypot(vn, ve), LAND_DRIFT if glance.velocity_valid else BLIND_DRIFT
         slow = LET_GO_SINK if self.touching else TOUCH_SINK
-        resting = thrust < TOUCH_THRUST and abs(vd) < slow and math.hypot(vn, ve) < LAND_DRIFT
+        resting = thrust < TOUCH_THRUST and abs(vd) < slow and drifting < limit
         if not (self.airborne and sinking and resting):
             self._still_since_us = None
         elif self._still_since_us is None:
             self._still_since_us = now_us
         self.touching = self._still_since_us is not None and now_us - self._still_since_us >= TOUCH_TIME_US
         if self.airborne:
-            changing = thrust < LAND_THRUST and abs(vd) < LAND_SINK and math.hypot(vn, ve) < LAND_DRIFT
+            changing = thrust < LAND_THRUST and abs(vd) < LAND_SINK and drifting < limit
             needed_us = LAND_TIME_US
         else:
             if not armed or math.isnan(self._standing_z):

@@ -122,8 +122,10 @@ def test_a_mission_that_loses_gps_lands_and_disarms_in_half_a_minute() -> None:
     pilot = ready(23)
     there_and_back(pilot)
     pilot.until(lambda: truth_n(pilot)[0] > 8.0, 30)
+    lost_n = truth_n(pilot)
     assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, m.FAILURE_TYPE_OFF, 0) == ACCEPTED
     pilot.until(lambda: not pilot.armed, 30)
+    assert np.linalg.norm((truth_n(pilot) - lost_n)[:2]) < 25.0  # of which it flies 15 m before it knows
     assert any("position lost" in text for text in pilot.texts())
     assert abs(truth_n(pilot)[2]) < 0.1
 

@@ -83,3 +83,13 @@ def test_a_setpoint_leads_down_by_its_height_or_else_by_its_speed() -> None:
     assert asks_to_sink(Setpoint(position_n=nothing, velocity_n=np.array([0.0, 0.0, 0.3])), -5.0)
     assert not asks_to_sink(Setpoint(velocity_n=still), -5.0)
     assert not asks_to_sink(Setpoint(acceleration_n=np.array([0.0, 0.0, 1.0])), -5.0)
+
+
+def test_a_false_velocity_does_not_keep_a_blind_vehicle_from_landing() -> None:
+    """GIVEN feet on the ground and no velocity WHEN the guess of it is 2 m/s THEN it knows that it has landed."""
+    for known, landed in ((True, False), (False, True)):
+        detector = LandDetector(hover=0.59, airborne=True)
+        for i in range(150):
+            seen = Glance(i * LOOK_US, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.05, True, known, known, True, 0)
+            detector.step(i * LOOK_US, seen, True, True)
+        assert detector.airborne is not landed

@@ -613,10 +613,10 @@ def test_a_battery_warns_returns_and_lands(pilot: Pilot) -> None:
     assert "battery" in pilot.texts()[-1]
 
 
-def test_a_lost_position_lands_level(pilot: Pilot) -> None:
+def test_a_lost_position_lands_where_it_is(pilot: Pilot) -> None:
     airborne(pilot)
     point(pilot).position_known = False
-    pilot.run(2.9)
+    pilot.run(1.9)
     assert pilot.mode == HOLD
     pilot.run(0.2)
     assert pilot.mode == LAND
