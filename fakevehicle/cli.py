@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 from fakevehicle.airframe import load_airframe
-from fakevehicle.config import MAX_LINKS, Autopilot, LinkConfig, VehicleConfig
+from fakevehicle.config import MAX_LINKS, Autopilot, Gains, LinkConfig, VehicleConfig
 from fakevehicle.driver import DriverCounters, LinkPlan, Seat, open_links, px4_links, run
 from fakevehicle.errors import AirframeError, ScenarioError, VehicleError
 from fakevehicle.faults import parse_fault
@@ -57,6 +57,10 @@ def fly(
         typer.Option("--connect", metavar="URL", help="A link for a companion: udpout:HOST:PORT or udpin:HOST:PORT."),
     ] = None,
     autopilot: Annotated[str, typer.Option(metavar="px4|ardupilot", help="Whose MAVLink behaviour it shows.")] = "px4",
+    gains: Annotated[
+        str,
+        typer.Option(metavar="|".join(get_args(Gains)), help="Ours, the paper's, or a special case."),
+    ] = "default",
     airframe: Annotated[str, typer.Option(help="A shipped airframe, or a YAML file.")] = "x500",
     home: Annotated[
         str, typer.Option(metavar="LAT,LON,ALT,HEADING", help="Degrees, metres above sea level, degrees.")
@@ -125,6 +129,7 @@ def fly(
                 start_unix_us=round(started_s * 1e6),
                 instance=instance + i,
                 autopilot=kind,
+                gains=_gains(gains),
                 faults=faults,
                 gusts=events.gusts,
                 world=events.world,
@@ -265,6 +270,14 @@ def _autopilot(text: str) -> Autopilot:
     if text not in known:
         _fail(f"--autopilot {text}: expected one of {', '.join(known)}", 2)
     return cast(Autopilot, known[text])
+
+
+def _gains(text: str) -> Gains:
+    """One of the presets."""
+    known = {name: name for name in get_args(Gains)}
+    if text not in known:
+        raise ValueError(f"--gains {text}: expected one of {', '.join(known)}")
+    return cast(Gains, known[text])
 
 
 def _known(autopilot: Autopilot) -> tuple[ParameterSet, ParameterSet]:

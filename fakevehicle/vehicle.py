@@ -20,6 +20,7 @@ from fakevehicle import flight, supervisor
 from fakevehicle.airframe import load_airframe
 from fakevehicle.codec import AUTOPILOT_COMPONENT, Message, decode
 from fakevehicle.config import VehicleConfig
+from fakevehicle.control.gains import PRESETS
 from fakevehicle.files import Files, MemoryFiles, Tree
 from fakevehicle.flavours import flavour_of
 from fakevehicle.flavours.base import Parts
@@ -119,7 +120,8 @@ class Vehicle:
     ) -> None:
         self.config = config
         flavour = self._flavour = flavour_of(config.autopilot)
-        overrides = {"MAV_SYS_ID": config.system_id, **flavour.defaults, **(parameters or {})}
+        preset = PRESETS[config.gains]
+        overrides = {"MAV_SYS_ID": config.system_id, **flavour.defaults, **preset, **(parameters or {})}
         self.parameters = ParameterSet(_distinct((*PARAMETERS, *flavour.parameters)), overrides)
         airframe = load_airframe(config.airframe)
         self._stack = FlightStack(

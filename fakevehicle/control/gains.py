@@ -73,13 +73,20 @@ velocity loops. Kept for comparison, not for flying in wind."""
 PRESETS: Mapping[str, Mapping[str, float]] = {
     "default": {},
     "paper": PAPER_GAINS,
+    "fopid": {f"FT_{loop.name}_KT": 0.0 for loop in FOPID_LOOPS},
+    "tid": {
+        f"FT_{loop}_{term}": value
+        for loop in ("VXY", "VZ")
+        for term, value in (("KP", 0.0), ("KT", 8.5), ("LAMBDA", 1.0), ("MU", 1.0))
+    },
     "pid": {
         f"FT_{loop.name}_{term}": value
         for loop in FOPID_LOOPS
         for term, value in (("KT", 0.0), ("LAMBDA", 1.0), ("MU", 1.0))
     },
 }
-"""Sets of the loops' gains by name, as overrides of the defaults."""
+"""Sets of the loops' gains by name, as overrides of the defaults: the law's special cases, which all fly. In `tid` the
+velocity loops have s^(-1/3) instead of a proportional term, as much at 5 rad/s."""
 
 
 def _loop_parameters(loop: LoopDefaults) -> tuple[Parameter, ...]:

@@ -1,13 +1,14 @@
-"""Every shipped airframe flies: with the default gains, the estimator in the loop, by MAVLink alone."""
+"""Every shipped airframe flies with the default gains, and every set of gains an X500; the estimator in the loop."""
 
 import math
 from importlib import resources
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from fakevehicle.airframe import load_airframe
-from fakevehicle.config import VehicleConfig
+from fakevehicle.config import Gains, VehicleConfig
 from fakevehicle.vehicle import Vehicle
 from tests.vehicle_pilot import NAN, Pilot
 from wire.dialect import mavlink
@@ -27,9 +28,12 @@ def test_an_airframe_can_hover_with_thrust_to_spare_and_a_source_for_every_numbe
     assert all(len(text) > 5 for text in frame.source.values())
 
 
-@pytest.mark.parametrize("name", AIRFRAMES)
-def test_it_takes_off_hovers_and_lands(name: str) -> None:
-    vehicle = Vehicle(VehicleConfig(airframe=name, wind_n=np.array([1.0, 0.5, 0.0])))
+@pytest.mark.parametrize(
+    ("name", "gains"), [*((name, "default") for name in AIRFRAMES), *(("x500", kind) for kind in get_args(Gains)[1:])]
+)
+def test_it_takes_off_hovers_and_lands(name: str, gains: Gains) -> None:
+    vehicle = Vehicle(VehicleConfig(airframe=name, gains=gains, wind_n=np.array([1.0, 0.5, 0.0])))
+    assert vehicle.parameters["FT_VXY_KT"] == {"default": 0.8, "tid": 8.5}.get(gains, 0.0)
     pilot = Pilot(vehicle)
     pilot.run(8.0)
     # WHEN it is armed and asked to take off

@@ -21,6 +21,7 @@ from fakevehicle.cli import app
         (["--fault", "gps:gone"], ["gps:gone", "expected one of gyro"]),
         (["--fault", "gps"], ["fault 'gps'", "gps:off@20-40"]),
         (["--scenario", "nowhere.yaml"], ["nowhere.yaml", "No such file"]),
+        (["--gains", "p"], ["--gains p", "default, paper, pid, tid, fopid"]),
         (["--speed", "0"], ["--speed", "0.01 to 1000"]),
         (["--wind", "1e200,0,0"], ["--wind 1e200,0,0", "at most 60"]),
         (["--home", "0,0,1e300,0"], ["--home 0,0,1e300,0", "altitude"]),
