@@ -45,12 +45,14 @@ class Battery:
     capacity : [A s]; the pack's, unless somebody wants it to be empty sooner.
     used : [A s].
     current : [A].
+    silent : never; its monitor (`sensors.gauge`) may be.
     """
 
     pack: Pack
     capacity: float = 0.0
     used: float = 0.0
     current: float = 0.0
+    silent: bool = False
 
     def __post_init__(self) -> None:
         self.capacity = self.capacity or 3600.0 * self.pack.capacity

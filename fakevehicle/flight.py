@@ -27,6 +27,7 @@ from fakevehicle.faults import Fault, FaultKind, FaultSchedule, Sensor
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.physics.wind import TURBULENCE, Gust, gust_table
 from fakevehicle.sensors import suite
+from fakevehicle.sensors.gauge import Gauge
 from fakevehicle.sensors.magnetometer import field_n
 from fakevehicle.sensors.obstacles import World
 from fakevehicle.sensors.suite import Sensors
@@ -129,6 +130,7 @@ class FlightStack:
         self._turbulent = False
         self._resets = self._estimator.resets
         self._battery = Battery(airframe.battery)
+        self._gauge = Gauge(self._battery, self._faults, self._gust_rng.spawn(1)[0])
         self._read_own_parameters()
         self._setpoint: FloatArray = self._world["setpoint"][0]
         self._thrust, self._effort = self._world["thrust"], self._world["effort"]
@@ -196,6 +198,7 @@ class FlightStack:
         """Draw what the motors take, let them feel the voltage, and break those whose time has come."""
         battery, body = self._battery, self._body[0]
         battery.draw(float(self._effort[0]), BATTERY_US * 1e-6)
+        self._gauge.read(now_us)
         if self._sagging:
             body["sag"] = sag = battery.sag
             body["boost"] = 1.0 / sag if self._boosting else 1.0
@@ -311,9 +314,9 @@ class FlightStack:
         return self._sensors.obstacles
 
     @property
-    def battery(self) -> Battery:
-        """The pack, to be looked at only."""
-        return self._battery
+    def battery(self) -> Gauge:
+        """What the battery's monitor reads."""
+        return self._gauge
 
     @property
     def control(self) -> ControlStatus:

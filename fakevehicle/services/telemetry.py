@@ -12,11 +12,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fakevehicle.battery import Battery
 from fakevehicle.codec import Layout, Message
 from fakevehicle.config import VehicleConfig
 from fakevehicle.flight import FlightStack
 from fakevehicle.places import Places
+from fakevehicle.sensors.gauge import Gauge
 from fakevehicle.services.service import Builder, Service
 from fakevehicle.supervisor import Supervisor
 from fakevehicle.vocabulary import Estimate, FloatArray
@@ -73,7 +73,7 @@ class Telemetry(Service):
     """
 
     def __init__(
-        self, config: VehicleConfig, stack: FlightStack, supervisor: Supervisor, battery: Battery, places: Places
+        self, config: VehicleConfig, stack: FlightStack, supervisor: Supervisor, battery: Gauge, places: Places
     ) -> None:
         self._config = config
         self._stack = stack
@@ -149,15 +149,17 @@ class Telemetry(Service):
             health |= mavlink.MAV_SYS_STATUS_AHRS
         if s.armed or s.why_not_armable(self.now_us) is None:
             health |= mavlink.MAV_SYS_STATUS_PREARM_CHECK
-        if s.battery_good:
+        if s.battery_good and not b.silent:
             health |= mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
         if s.fence.breach is None:
             health |= mavlink.MAV_SYS_STATUS_GEOFENCE
         fence = mavlink.MAV_SYS_STATUS_GEOFENCE if s.fence.present else 0
         enabled = _SENSORS | (fence if s.fence.enabled else 0)
-        millivolts, centiamps = round(b.voltage * 1e3), round(b.current * 1e2)
+        millivolts, centiamps, percent = round(b.voltage * 1e3), round(b.current * 1e2), round(b.remaining * 100)
+        if b.silent:
+            millivolts, centiamps, percent = _UNKNOWN16, -1, -1
         return mavlink.MAVLink_sys_status_message(
-            _SENSORS | fence, enabled, health, 0, millivolts, centiamps, round(b.remaining * 100), 0, 0, 0, 0, 0, 0
+            _SENSORS | fence, enabled, health, 0, millivolts, centiamps, percent, 0, 0, 0, 0, 0, 0
         )
 
     def system_time(self) -> Message:
@@ -307,8 +309,10 @@ class Telemetry(Service):
             round(gps.speed_accuracy * 1e3),
         )
 
-    def battery_status(self) -> Message:
+    def battery_status(self) -> Message | None:
         b = self._battery
+        if b.silent:
+            return None
         cells = min(b.pack.cells, 10)  # what the field has room for
         cell = round(b.voltage / b.pack.cells * 1e3)
         return mavlink.MAVLink_battery_status_message(

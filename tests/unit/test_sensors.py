@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from fakevehicle.battery import Battery, Pack
 from fakevehicle.faults import Channel, FaultSchedule, Sensor, parse_fault
 from fakevehicle.geodesy import to_geodetic, to_local
 from fakevehicle.sensors.barometer import Barometer, altitude_of, pressure_at
+from fakevehicle.sensors.gauge import Gauge
 from fakevehicle.sensors.gps import GpsReceiver
 from fakevehicle.sensors.imu import GYRO_RANGE, IMU, integrate_imu, read_gyro
 from fakevehicle.sensors.magnetometer import Magnetometer, field_n
@@ -269,3 +271,34 @@ def test_the_rangefinder_tells_the_height_longer_when_tilted_shorter_over_a_roof
     assert look(5.0, world=World(boxes=np.array([[-1.0, -1.0, -1.8, 1.0, 1.0, 0.2]]))) == pytest.approx(3.0, abs=0.01)
     assert math.isnan(look(25.0) or 0.0)
     assert look(3.0, fault="range:off") is None
+
+
+def gauge_reads(fault: str) -> Gauge:
+    battery = Battery(Pack(cells=4, capacity=5.0, resistance=0.02, idle_power=8.0, full_power=400.0))
+    gauge = Gauge(battery, FaultSchedule([parse_fault(fault)]), np.random.default_rng(1))
+    for k in range(100):
+        battery.draw(0.4, 0.1)
+        gauge.read(100_000 * k)
+    true = Gauge(battery, FaultSchedule(), np.random.default_rng(1))
+    true.read(0)
+    gauge.read(9_900_000)
+    assert battery.voltage == true.voltage
+    gauge.true = true  # type: ignore[attr-defined]
+    return gauge
+
+
+def test_a_battery_s_monitor_reads_true_low_stuck_or_nothing_and_stays_within_its_registers() -> None:
+    healthy, low, stuck, off, wild = (
+        gauge_reads(f"{text}") for text in
+        ("gps:off", "battery:bias=-2,0,-0.5@5", "battery:stuck@5", "battery:off@5", "battery:bias=1e9")
+    )  # fmt: skip
+    true = healthy.true  # type: ignore[attr-defined]
+    assert (healthy.voltage, healthy.current, healthy.remaining) == (true.voltage, true.current, true.remaining)
+    assert low.voltage == pytest.approx(true.voltage - 2.0)
+    assert low.remaining == pytest.approx(true.remaining - 0.5)
+    assert stuck.remaining > true.remaining
+    assert (off.silent, healthy.silent) == (True, False)
+    assert off.remaining > true.remaining  # the last there was
+    assert wild.voltage < 65.535
+    assert abs(wild.current) < 327.67
+    assert wild.remaining == 1.0
