@@ -22,8 +22,12 @@ ROOT = Path(__file__).parents[2]
 LINKS = (LinkConfig("onboard", "onboard"),)
 
 
-def rows(heading: str) -> list[tuple[str, str, str]]:
-    """(said, theirs, ours) of one table of the document."""
+Row = tuple[str, str, str]
+"""What was said, what the real one answered, what ours answered."""
+
+
+def reasons(heading: str) -> dict[Row, str]:
+    """One table of the document: each row's reason."""
     section = (ROOT / "docs/side_by_side.md").read_text().split(f"## `{heading}`")[1].split("\n## ")[0]
     cells = [
         [c.strip().strip("`") for c in line.strip("|").split("|")]
@@ -31,10 +35,15 @@ def rows(heading: str) -> list[tuple[str, str, str]]:
         if line.startswith("| `")
     ]
     assert all(len(row) == 4 and row[3] for row in cells), "every row has four cells and a reason"
-    return [(said, theirs, ours) for said, theirs, ours, _ in cells]
+    return {(said, theirs, ours): reason for said, theirs, ours, reason in cells}
 
 
-def differences(theirs: Talk, ours: Talk) -> list[tuple[str, str, str]]:
+def rows(heading: str) -> list[Row]:
+    """The rows of one table, without their reasons."""
+    return list(reasons(heading))
+
+
+def differences(theirs: Talk, ours: Talk) -> list[Row]:
     """Turns that were answered otherwise, and the story where it went otherwise; each kind once, in order."""
     found = dict.fromkeys(
         (real.said, " ".join(real.answers), " ".join(here.answers))
@@ -57,15 +66,15 @@ def same(real: Turn, here: Turn) -> bool:
     return silent and refused and real.answers == [word for word in here.answers if not word.startswith("TEXT")]
 
 
-def unexplained(found: Sequence[tuple[str, str, str]], table: Sequence[tuple[str, str, str]]) -> list[tuple[str, ...]]:
-    return [f for f in found if not any(_fits(f, row) for row in table)]
+def unexplained(found: Sequence[Row], table: Sequence[Row]) -> list[Row]:
+    return [f for f in found if not any(fits(f, row) for row in table)]
 
 
-def unused(found: Sequence[tuple[str, str, str]], table: Sequence[tuple[str, str, str]]) -> list[tuple[str, ...]]:
-    return [row for row in table if not any(_fits(f, row) for f in found)]
+def unused(found: Sequence[Row], table: Sequence[Row]) -> list[Row]:
+    return [row for row in table if not any(fits(f, row) for f in found)]
 
 
-def _fits(found: tuple[str, str, str], row: tuple[str, str, str]) -> bool:
+def fits(found: Row, row: Row) -> bool:
     """A row may leave a part open with a star, and writes silence as a dash."""
     return all(fnmatchcase(f or "-", r) for f, r in zip(found, row, strict=True))
 
