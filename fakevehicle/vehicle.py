@@ -37,6 +37,7 @@ from fakevehicle.services.logs import Logs
 from fakevehicle.services.metadata import Metadata
 from fakevehicle.services.missions import Missions
 from fakevehicle.services.navigation import Navigation
+from fakevehicle.services.others import Others
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
 from fakevehicle.services.raw import Raw
@@ -188,7 +189,12 @@ class Vehicle:
             )
         )
         services = self._services
-        self._handlers = {**merged("message", (s.routes() for s in services)), **flavour.routes()}
+        others = Others(self._outbox, self._streams, self._warn)  # for what nobody else takes
+        self._handlers = {
+            **others.routes(),
+            **merged("message", (s.routes() for s in services)),
+            **flavour.routes(),
+        }
         self._commands.table = {**merged("command", (s.commands() for s in services)), **flavour.commands()}
         self._streams.table = {**merged("stream", (s.builders() for s in services)), **flavour.builders()}
         self._steps = [s.step for s in (*services, flavour) if type(s).step is not Service.step]
