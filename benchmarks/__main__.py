@@ -14,6 +14,7 @@ from benchmarks import (
     bench_search,
     bench_simulate,
     bench_timing,
+    bench_tracking,
     bench_vehicle,
 )
 
@@ -32,6 +33,7 @@ def main() -> None:
     bench_simulate.main()
     bench_physics.main()
     bench_vehicle.main()
+    bench_tracking.main()
 
 
 if __name__ == "__main__":
