@@ -197,6 +197,27 @@ def normalised_innovation_squared(P, H, R, y):
 
 
 @kernel
+def inverse(S):
+    """S^-1 of a symmetric positive-definite (m, m) matrix, by Gauss and Jordan: such a matrix needs no pivots."""
+    m = S.shape[0]
+    left, right = S.copy(), np.zeros((m, m))
+    for k in range(m):
+        right[k, k] = 1.0
+    for k in range(m):
+        share = 1.0 / left[k, k]
+        for j in range(m):
+            left[k, j] *= share
+            right[k, j] *= share
+        for i in range(m):
+            if i != k:
+                part = left[i, k]
+                for j in range(m):
+                    left[i, j] -= part * left[k, j]
+                    right[i, j] -= part * right[k, j]
+    return right
+
+
+@kernel
 def inject(nominal, error, P, scratch):
     """Move the estimated error into the nominal state and turn P with it: P <- G P G^T, G = I - [dtheta/2]x.
 

@@ -11,7 +11,7 @@ from scipy.stats import chi2
 from fakevehicle.airframe import load_airframe
 from fakevehicle.estimator import measurements
 from fakevehicle.estimator.eskf import ErrorStateFilter
-from fakevehicle.estimator.strapdown import normalised_innovation_squared, propagate
+from fakevehicle.estimator.strapdown import inverse, normalised_innovation_squared, propagate
 from fakevehicle.estimator.wind import WindWatch
 from fakevehicle.flight import PARAMETERS, FlightStack
 from fakevehicle.params import ParameterSet
@@ -118,6 +118,14 @@ def test_a_magnetometer_that_is_right_surprises_nobody(seed: int) -> None:
     w, x, y, z = state[6:10]
     seen = Rotation.from_quat([x, y, z, w]).inv().apply(field_n())
     np.testing.assert_allclose(measurements.magnetometer(state, seen, field_n(), 0.05).innovation, 0.0, atol=1e-12)
+
+
+def test_the_inverse_of_a_covariance_is_numpys() -> None:
+    rng = np.random.default_rng(3)
+    for m in (1, 2, 3, 5, 6):
+        a = rng.standard_normal((m, m))
+        S = a @ a.T + 0.1 * np.eye(m)
+        np.testing.assert_allclose(inverse(S), np.linalg.inv(S), rtol=1e-9, atol=1e-12)
 
 
 def test_an_update_moves_the_state_as_the_gain_says_and_keeps_p_symmetric() -> None:
