@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
+from fakevehicle.mission_runner import target_of
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
 from fakevehicle.plans import CIRCLES, PlanItem, PlanStore
@@ -64,6 +65,8 @@ class FenceMonitor:
         self._places = places
         self._zones: tuple[_Zone, ...] = ()
         self._made_of: tuple[object, Geodetic | None] = (None, None)
+        self._mission_key: tuple[float, ...] = ()
+        self._mission_leaves = False
         self.enabled = True
         self.breach: Breach | None = None
         self.breaches = 0
@@ -97,6 +100,18 @@ class FenceMonitor:
         if any(zone.holds(north, east) is not zone.inclusion for zone in self._local_zones()):
             return Breach.BOUNDARY
         return None
+
+    def mission_leaves(self, home_n: FloatArray) -> bool:
+        """Whether a place of the loaded mission is where nobody may be; worked out once for what is loaded.
+
+        `home_n`, (3,) [m], is what heights count from, and what an item leaves open.
+        """
+        key = (self._store.version, self._parameters.version, self.enabled, *home_n.tolist())
+        if key != self._mission_key:
+            self._mission_key = key
+            points = (target_of(item, self._places, float(home_n[2]), home_n) for item in self._store.mission)
+            self._mission_leaves = any(p is not None and self.breach_at(p, home_n) is not None for p in points)
+        return self._mission_leaves
 
     def _local_zones(self) -> tuple[_Zone, ...]:
         origin = self._places.origin

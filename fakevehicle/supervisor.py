@@ -177,6 +177,8 @@ class Supervisor:
         reason = refusal(event, self.conditions(now_us))
         if reason is not None:
             return reason
+        if event is Event.ASK_MISSION and self.home is not None and self.fence.mission_leaves(self.home.position_n):
+            return Refusal.OUTSIDE_FENCE
         match event:
             case Event.ASK_ARM:
                 self._arm(now_us)

@@ -1,6 +1,8 @@
 """The table of failsafes, the fence's geometry and the course, each by itself."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +12,10 @@ from fakevehicle.course import Course
 from fakevehicle.failsafes import EVENTS, RULES, Action, Failsafes, Trigger, Tripped, battery_triggers
 from fakevehicle.fence import Breach, FenceMonitor
 from fakevehicle.geodesy import to_geodetic
+from fakevehicle.modes import Mode
 from fakevehicle.params import ParameterSet
 from fakevehicle.places import Places
-from fakevehicle.plans import Kind, PlanItem, PlanStore
+from fakevehicle.plans import COMMANDS, Kind, PlanItem, PlanStore
 from fakevehicle.vocabulary import Geodetic, Glance
 
 ORIGIN = Geodetic(math.radians(47.4), math.radians(8.5), 488.0)
@@ -80,6 +83,20 @@ def test_of_several_the_most_severe_comes_first_and_those_that_do_nothing_not_at
 @pytest.mark.parametrize(("remaining", "count"), [(0.5, 0), (0.14, 1), (0.06, 2), (0.04, 3), (0.0, 3)])
 def test_a_battery_triggers_every_threshold_it_is_below(remaining: float, count: int) -> None:
     assert len(battery_triggers(remaining, values())) == count
+
+
+def test_the_page_names_every_parameter_value_item_and_command_of_the_tables() -> None:
+    page = Path("docs/vehicle_autopilot.md").read_text()
+    rows = {rule.parameter: rule for rule in RULES.values() if rule.parameter}
+    for name, rule in rows.items():
+        (row,) = [line for line in page.splitlines() if f"| {name} |" in line]
+        chosen = {int(n) for n in re.findall(r"\d+", row.split("|")[4])}
+        assert set(rule.actions) <= chosen, name
+    for parameter in (*failsafes.PARAMETERS, *fence.PARAMETERS):
+        assert parameter.name in page
+    items = page[page.index("| item |") : page.index("## Failsafes")]
+    assert {str(number) for number in COMMANDS[Kind.MISSION]} <= set(re.findall(r"\d+", items))
+    assert all(mode.title in page for mode in Mode)
 
 
 # The fence

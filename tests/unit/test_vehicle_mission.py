@@ -524,6 +524,16 @@ def test_a_place_beyond_the_fence_is_refused(pilot: Pilot, fence: list[Any]) -> 
     assert Pilot.ack(pilot.tick(), 192) == ACCEPTED
 
 
+def test_a_mission_that_leaves_the_fence_is_not_begun(pilot: Pilot) -> None:
+    assert upload(pilot, SQUARE) == 0
+    assert upload(pilot, square_fence(5.0), 1) == 0
+    assert pilot.command(300, 0, 0) == REJECTED
+    assert "outside the fence" in pilot.texts()[-1]
+    assert (pilot.armed, pilot.mode) == (False, HOLD)
+    assert upload(pilot, square_fence(50.0), 1) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+
+
 def test_standing_in_an_exclusion_zone_forbids_arming(pilot: Pilot) -> None:
     assert upload(pilot, square_fence(5.0, 5002), 1) == 0
     pilot.run(0.1)
