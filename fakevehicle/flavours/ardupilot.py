@@ -18,7 +18,7 @@ from fakevehicle.config import Profile
 from fakevehicle.faults import Fault, FaultKind, Sensor
 from fakevehicle.flavours import ardupilot_parameters as names
 from fakevehicle.flavours.ardupilot_commands import ArduCommands, failed
-from fakevehicle.flavours.ardupilot_modes import AUTO, BY_NUMBER, GUIDED, LAND, MODES, RTL, STABILIZE
+from fakevehicle.flavours.ardupilot_modes import AUTO, BRAKE, BY_NUMBER, GUIDED, LAND, MODES, RTL, STABILIZE
 from fakevehicle.flavours.ardupilot_setpoints import GuidedSetpoints
 from fakevehicle.flavours.ardupilot_streams import RATES_HZ, StreamRequests
 from fakevehicle.flavours.base import Flavour, ModeInfo, Parts, Said
@@ -153,6 +153,8 @@ class ArduPilot(Flavour):
             self.number = LAND
         elif s.armed and s.mode is Mode.RTL and (s.failsafe or self.number != AUTO):
             self.number = RTL
+        elif s.armed and s.mode is Mode.HOLD and s.failsafe:
+            self.number = BRAKE
         using_gps = s.position_n is not None
         if using_gps and not self._using_gps:
             s.notes.append((_INFO, "EKF3 IMU0 is using GPS"))

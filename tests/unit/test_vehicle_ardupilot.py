@@ -203,6 +203,14 @@ def test_disarming_in_the_air_fails_unless_it_is_forced(pilot: Pilot) -> None:
     assert pilot.command(_m.MAV_CMD_COMPONENT_ARM_DISARM, 0, 21196) == ACCEPTED
 
 
+@pytest.mark.parametrize(("action", "number"), [(1, BRAKE), (2, RTL), (3, LAND)])
+def test_the_mode_a_failsafe_takes_is_shown(pilot: Pilot, action: int, number: int) -> None:
+    pilot.send(_m.MAVLink_param_set_message(1, 1, b"NAV_DLL_ACT", action, _m.MAV_PARAM_TYPE_INT32))
+    pilot.send(_m.MAVLink_heartbeat_message(_m.MAV_TYPE_GCS, _m.MAV_AUTOPILOT_INVALID, 0, 0, 0, 3))
+    fly(pilot)
+    pilot.until(lambda: mode(pilot) == number, 5)
+
+
 def test_a_mode_that_needs_a_position_is_refused_in_the_air_without_one(pilot: Pilot) -> None:
     fly(pilot)
     stack: Any = pilot.vehicle._stack
