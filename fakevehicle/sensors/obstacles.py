@@ -6,7 +6,8 @@ Frame: truth's n, local NED from home. The ground is not among them. The sensor 
 with the body, one tilted up, one down, 72 directions each, as OBSTACLE_DISTANCE has them (0 ahead, clockwise).
 
 A ray o + t d meets a box between its slabs, a sphere and an upright cylinder where a quadratic says, and a wall where
-it crosses its vertical plane within its length and height; from within a solid the distance is 0.
+it crosses its vertical plane within its length and height; from within a solid the distance is 0. Of a large world
+only what is near is asked (`Nearby`), and of each kind at most the nearest `MOST_NEAR`.
 """
 
 import math
@@ -25,6 +26,10 @@ MINIMUM, MAXIMUM = 0.2, 25.0
 """Reach of the sensor [m]."""
 NOISE = 0.03
 """1 sigma of a distance [m]."""
+MOST_NEAR = 300
+"""Solids of a kind that a ray is tried against."""
+STRIDE = 5.0
+"""What is near is looked up again after this way [m]."""
 
 
 @kernel
@@ -143,6 +148,50 @@ class World:
         )  # fmt: skip
         return out
 
+    def near(self, position_n: FloatArray, radius: float) -> "World":
+        """The solids of which some part is within `radius` [m] of a point, at most the nearest `MOST_NEAR` a kind."""
+        p, b, s, c, w = position_n, self.boxes, self.spheres, self.cylinders, self.walls
+        gap = np.maximum(np.maximum(b[:, :3] - p, p - b[:, 3:]), 0.0)
+        beside = np.maximum(np.hypot(c[:, 0] - p[0], c[:, 1] - p[1]) - c[:, 2], 0.0)
+        end = np.maximum(np.maximum(c[:, 3] - p[2], p[2] - c[:, 4]), 0.0)
+        along = w[:, 2:4] - w[:, 0:2]
+        share = np.sum((p[:2] - w[:, 0:2]) * along, axis=1) / np.maximum(np.sum(along * along, axis=1), 1e-12)
+        foot = w[:, 0:2] + np.clip(share, 0.0, 1.0)[:, None] * along
+        return World(
+            _nearest(b, np.linalg.norm(gap, axis=1), radius),
+            _nearest(s, np.linalg.norm(s[:, :3] - p, axis=1) - s[:, 3], radius),
+            _nearest(c, np.hypot(beside, end), radius),
+            _nearest(w, np.hypot(foot[:, 0] - p[0], foot[:, 1] - p[1]), radius),
+        )
+
+
+def _nearest(rows: FloatArray, distance: FloatArray, radius: float) -> FloatArray:
+    """The rows within `radius`, in their order; the nearest of them when there are too many."""
+    within = np.flatnonzero(distance <= radius)
+    if len(within) > MOST_NEAR:
+        within = np.sort(within[np.argpartition(distance[within], MOST_NEAR)[:MOST_NEAR]])
+    return rows[within]
+
+
+class Nearby:
+    """The part of a world a sensor of some reach can see, looked up anew every `STRIDE` metres.
+
+    Parameters
+    ----------
+    world : all of it.
+    """
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._part, self._centre_n, self._reach = World(), np.full(3, np.inf), 0.0
+
+    def at(self, position_n: FloatArray, reach: float) -> World:
+        """What can be within `reach` [m] of a point."""
+        if reach != self._reach or not math.dist(position_n, self._centre_n) <= STRIDE:
+            self._part = self._world.near(position_n, reach + STRIDE)
+            self._centre_n, self._reach = position_n.copy(), reach
+        return self._part
+
 
 def _rings() -> FloatArray:
     bearing = np.arange(SECTORS) * (2.0 * math.pi / SECTORS)
@@ -164,7 +213,7 @@ class ObstacleSensor:
     """
 
     def __init__(self, world: World, rng: np.random.Generator, channel: Channel) -> None:
-        self._world, self._rng, self._channel = world, rng, channel
+        self._nearby, self._rng, self._channel = Nearby(world), rng, channel
         self._directions_b = _rings()
 
     def measure(self, now_us: int, position_n: FloatArray, q_nb: FloatArray) -> ObstacleScan | None:
@@ -177,7 +226,7 @@ class ObstacleSensor:
                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
             ]
         )
-        distance = self._world.cast(position_n, self._directions_b @ R_nb.T, MAXIMUM)
+        distance = self._nearby.at(position_n, MAXIMUM).cast(position_n, self._directions_b @ R_nb.T, MAXIMUM)
         said = self._channel.through(now_us, distance + NOISE * self._rng.standard_normal(len(distance)))
         if said is None:
             return None

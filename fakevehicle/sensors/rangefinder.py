@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from fakevehicle.faults import Channel
-from fakevehicle.sensors.obstacles import World
+from fakevehicle.sensors.obstacles import Nearby, World
 from fakevehicle.vocabulary import FloatArray, RangeSample
 
 MINIMUM = 0.05
@@ -33,7 +33,8 @@ class Rangefinder:
     """
 
     def __init__(self, world: World | None, ground: float, rng: np.random.Generator, channel: Channel) -> None:
-        self._world, self._ground, self._rng, self._channel = world, ground, rng, channel
+        self._nearby = None if world is None else Nearby(world)
+        self._ground, self._rng, self._channel = ground, rng, channel
         self.maximum = 20.0
 
     def measure(self, now_us: int, position_n: FloatArray, q_nb: FloatArray) -> RangeSample | None:
@@ -42,8 +43,9 @@ class Rangefinder:
         down = (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y))  # z_b in n
         height = max(self._ground - float(position_n[2]), 0.0)
         distance = height / down[2] if down[2] > 1e-3 else math.inf
-        if self._world is not None:
-            distance = min(distance, float(self._world.cast(position_n, np.array([down]), self.maximum)[0]))
+        if self._nearby is not None:
+            near = self._nearby.at(position_n, self.maximum)
+            distance = min(distance, float(near.cast(position_n, np.array([down]), self.maximum)[0]))
         draw = self._rng.standard_normal()
         if math.isfinite(distance):
             distance += math.hypot(NOISE, SHARE * distance) * draw

@@ -14,7 +14,7 @@ from fakevehicle.sensors.gauge import Gauge
 from fakevehicle.sensors.gps import GpsReceiver
 from fakevehicle.sensors.imu import GYRO_RANGE, IMU, integrate_imu, read_gyro
 from fakevehicle.sensors.magnetometer import Magnetometer, field_n
-from fakevehicle.sensors.obstacles import MAXIMUM, SECTORS, ObstacleSensor, World
+from fakevehicle.sensors.obstacles import MAXIMUM, MOST_NEAR, SECTORS, ObstacleSensor, World
 from fakevehicle.sensors.rangefinder import Rangefinder
 from fakevehicle.vocabulary import FloatArray, Geodetic
 
@@ -232,6 +232,37 @@ def test_a_wall_is_met_between_its_ends_and_edges_only_and_within_a_solid_the_di
     assert math.isinf(wall.cast(start, up, 10.0)[0])
     assert math.isinf(wall.cast(start, ahead, 3.0)[0])
     assert SOLIDS.cast(np.array([4.0, 0.0, -2.0]), ahead, 9.0)[0] == 0.0
+
+
+def test_what_is_near_is_found_by_its_nearest_part_and_limited_to_the_nearest() -> None:
+    here = np.array([0.0, 0.0, -2.0])
+    near = World(
+        boxes=np.array([[9.0, -50.0, -9.0, 99.0, 50.0, 0.0], [11.0, 0.0, -2.0, 12.0, 1.0, -1.0]]),
+        spheres=np.array([[0.0, 30.0, -2.0, 21.0], [0.0, 30.0, -2.0, 19.0]]),
+        cylinders=np.array([[0.0, 0.0, 1.0, 7.0, 9.0], [0.0, 0.0, 1.0, 9.0, 10.0]]),
+        walls=np.array([[9.0, -40.0, 9.0, 40.0, -3.0, 0.0], [9.0, 40.0, 9.0, 60.0, -3.0, 0.0]]),
+    ).near(here, 10.0)
+    assert [len(rows) for rows in (near.boxes, near.spheres, near.cylinders, near.walls)] == [1, 1, 1, 1]
+    assert (near.boxes[0, 0], near.spheres[0, 3], near.cylinders[0, 3], near.walls[0, 1]) == (9.0, 21.0, 7.0, -40.0)
+    row = np.arange(1000.0)[:, None]
+    crowd = World(boxes=np.hstack([0.01 * row, 0 * row, 0 * row, 0.01 * row + 0.005, 0 * row + 1, 0 * row + 1]))
+    kept = crowd.near(np.array([10.0, 0.5, 0.5]), 20.0).boxes
+    assert len(kept) == MOST_NEAR
+    assert kept[0, 0] == pytest.approx(10.0 - 0.01 * MOST_NEAR, abs=0.02)
+
+
+def test_a_sensor_that_travels_sees_what_it_comes_near_to() -> None:
+    channel = Channel(Sensor.OBSTACLE, FaultSchedule(), np.random.default_rng(0))
+    sensor = ObstacleSensor(
+        World(boxes=np.array([[100.0, -1.0, -9.0, 101.0, 1.0, 0.0]])), np.random.default_rng(1), channel
+    )
+    for north in np.arange(0.0, 99.0, 0.7):
+        scan = sensor.measure(0, np.array([north, 0.0, -2.0]), np.array([1.0, 0.0, 0.0, 0.0]))
+        assert scan is not None
+        if 100.0 - north < MAXIMUM - 0.2:
+            assert scan.distance[0] == pytest.approx(100.0 - north, abs=0.2)
+        else:
+            assert math.isnan(scan.distance[0]) or 100.0 - north < MAXIMUM + 0.2
 
 
 def test_a_world_that_is_no_world_is_refused() -> None:
