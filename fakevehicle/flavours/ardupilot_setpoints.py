@@ -91,9 +91,9 @@ class GuidedSetpoints(Service):
             self._nose = None
             if self._lift is None:
                 self._lift = ClimbThrust(self._parts.stack.glance.thrust)
-            self._look_attitude(s.asked)
+            self._lift_for(s.asked, 0.0)
 
-    def _look_attitude(self, asked: Setpoint | None) -> None:
+    def _lift_for(self, asked: Setpoint | None, dt_s: float) -> None:
         """An attitude's thrust is a climb rate (GUID_OPTIONS without 8): the thrust for it now."""
         p, g, lift = self._parts.parameters, self._parts.stack.glance, self._lift
         if asked is None or lift is None:
@@ -101,7 +101,7 @@ class GuidedSetpoints(Service):
         wanted = climb_rate(asked.thrust, float(p["MPC_Z_V_AUTO_UP"]), float(p["MPC_Z_V_AUTO_DN"]))
         x, y = asked.attitude_q_nb[1:3].tolist()
         cosine = 1.0 if math.isnan(x) else 1.0 - 2.0 * (x * x + y * y)
-        thrust = lift.step(wanted, -g.vz, cosine, LOOK_S)
+        thrust = lift.step(wanted, -g.vz, cosine, dt_s)
         self._parts.supervisor.offboard(self._asked_us, replace(asked, thrust=thrust))
 
     def stop(self, now_us: int) -> None:
@@ -120,7 +120,7 @@ class GuidedSetpoints(Service):
             self._asked = self._lift = None
             return
         if not math.isnan(asked.thrust):
-            self._look_attitude(asked)
+            self._lift_for(asked, LOOK_S)
             return
         moved = carried_on(asked, age_s, timeout_s) if now_us - self._asked_us > CARRY_US else None
         nose = self._nose_to_travel() if math.isnan(asked.yaw) and math.isnan(asked.yaw_rate) else None
