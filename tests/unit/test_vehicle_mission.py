@@ -9,7 +9,7 @@ from flight_double import PointMass
 from vehicle_pilot import ACCEPTED, DENIED, HOLD, LAND, NAN, OFFBOARD, REJECTED, RTL, UNSUPPORTED, Pilot, position
 
 import fakevehicle.vehicle
-from fakevehicle.config import VehicleConfig
+from fakevehicle.config import LinkConfig, VehicleConfig
 from fakevehicle.plans import Kind, PlanItem, PlanStore, item_flaw, plan_flaw
 from fakevehicle.vehicle import Vehicle
 from wire.dialect import mavlink
@@ -26,7 +26,7 @@ NORTH, EAST = 1.0 / 111_180.0, 1.0 / 75_500.0
 def pilot(monkeypatch: pytest.MonkeyPatch) -> Pilot:
     """On the onboard link of a vehicle that knows where it is and stands disarmed."""
     monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
-    pilot = Pilot(Vehicle(VehicleConfig()))
+    pilot = Pilot(Vehicle(VehicleConfig(links=(LinkConfig("onboard", "gcs"),))))
     pilot.run(1.0)
     return pilot
 
@@ -289,6 +289,12 @@ def reached(pilot: Pilot) -> list[int]:
     return list(dict.fromkeys(message.seq for message in pilot.of("MISSION_ITEM_REACHED")))
 
 
+def at(pilot: Pilot, seq: int) -> bool:
+    """Whether an item is the newest that was reached."""
+    newest = pilot._newest.get("MISSION_ITEM_REACHED")
+    return newest is not None and newest.seq == seq
+
+
 def test_a_mission_takes_off_flies_its_waypoints_and_lands(pilot: Pilot) -> None:
     assert upload(pilot, SQUARE) == 0
     assert pilot.last("MISSION_CURRENT").mission_state == 2  # not started
@@ -297,7 +303,7 @@ def test_a_mission_takes_off_flies_its_waypoints_and_lands(pilot: Pilot) -> None
     assert pilot.mode == MISSION
     corners = []
     for seq in (0, 1, 2):
-        pilot.until(lambda seq=seq: seq in reached(pilot), 40)
+        pilot.until(lambda seq=seq: at(pilot, seq), 40)
         corners.append(point(pilot).p.copy())
     np.testing.assert_allclose(corners, [[0, 0, -3], [10, 0, -5], [10, 10, -5]], atol=1.1)
     assert pilot.last("MISSION_CURRENT").mission_state == 3
@@ -320,14 +326,14 @@ def test_mission_start_arms_by_itself_and_needs_a_mission(pilot: Pilot) -> None:
 def test_a_mission_that_is_held_goes_on_where_it_was(pilot: Pilot) -> None:
     assert upload(pilot, SQUARE) == 0
     assert pilot.command(300, 0, 0) == ACCEPTED
-    pilot.until(lambda: 0 in reached(pilot), 10)
+    pilot.until(lambda: at(pilot, 0), 10)
     pilot.run(1.0)
     assert pilot.command(176, 1, 4, 3) == ACCEPTED
     pilot.run(2.0)
     current = pilot.last("MISSION_CURRENT")
     assert (current.seq, current.mission_state, current.mission_mode) == (1, 4, 2)
     assert pilot.command(176, 1, 4, 4) == ACCEPTED
-    pilot.until(lambda: 1 in reached(pilot), 10)
+    pilot.until(lambda: at(pilot, 1), 10)
 
 
 def test_an_end_in_the_air_is_held(pilot: Pilot) -> None:
@@ -355,7 +361,7 @@ def test_jumps_are_counted_and_speeds_kept(pilot: Pilot) -> None:
     order = [
         seq
         for _, link, _, h in pilot.heard
-        if h.get_type() == "MISSION_ITEM_REACHED" and link == "gcs"
+        if h.get_type() == "MISSION_ITEM_REACHED" and link == "onboard"
         for seq in [h.seq]
     ]
     assert [seq for i, seq in enumerate(order) if i == 0 or seq != order[i - 1]] == [0, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4]
@@ -367,15 +373,15 @@ def test_a_mission_without_a_takeoff_climbs_first(pilot: Pilot) -> None:
     assert pilot.command(300, 0, 0) == ACCEPTED
     pilot.until(lambda: point(pilot).p[0] > 0.3, 20)
     assert point(pilot).p[2] < -2.0
-    pilot.until(lambda: reached(pilot) == [0], 20)
+    pilot.until(lambda: at(pilot, 0), 20)
 
 
 def test_the_nose_points_along_the_way_unless_the_item_says_where(pilot: Pilot) -> None:
     assert upload(pilot, [waypoint(0, 0.0, 10.0, 5.0), waypoint(1, 0.0, 20.0, 5.0, yaw=180.0)]) == 0
     assert pilot.command(300, 0, 0) == ACCEPTED
-    pilot.until(lambda: reached(pilot) == [0], 20)
+    pilot.until(lambda: at(pilot, 0), 20)
     assert point(pilot).setpoint.yaw == pytest.approx(math.pi / 2, abs=0.01)
-    pilot.until(lambda: reached(pilot) == [0, 1], 20)
+    pilot.until(lambda: at(pilot, 1), 20)
     assert abs(point(pilot).setpoint.yaw) == pytest.approx(math.pi, abs=0.01)
 
 
@@ -396,7 +402,7 @@ def test_the_current_item_is_set_and_a_missing_one_refused(pilot: Pilot) -> None
 def test_a_new_mission_begins_with_its_first_item(pilot: Pilot) -> None:
     assert upload(pilot, SQUARE) == 0
     assert pilot.command(300, 0, 0) == ACCEPTED
-    pilot.until(lambda: 1 in reached(pilot), 20)
+    pilot.until(lambda: at(pilot, 1), 20)
     assert upload(pilot, [waypoint(0, -5.0, 0.0, 6.0)]) == 0
     assert pilot.last("MISSION_CURRENT").seq == 0
     pilot.until(lambda: pilot.mode == HOLD, 20)
@@ -447,7 +453,7 @@ def _e7(north: float, east: float) -> tuple[int, int]:
 
 def test_home_that_is_not_known_is_told_by_the_result_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
-    pilot = Pilot(Vehicle(VehicleConfig()))
+    pilot = Pilot(Vehicle(VehicleConfig(links=(LinkConfig("onboard", "gcs"),))))
     assert pilot.command(410) == 4
     assert pilot.texts() == []
 
@@ -543,7 +549,7 @@ def test_standing_in_an_exclusion_zone_forbids_arming(pilot: Pilot) -> None:
 
 def test_a_fence_that_is_switched_off_keeps_nobody(pilot: Pilot) -> None:
     def bits(field: str) -> bool:
-        pilot.run(0.3)
+        pilot.run(1.1)
         return bool(getattr(pilot.last("SYS_STATUS"), f"onboard_control_sensors_{field}") & m.MAV_SYS_STATUS_GEOFENCE)
 
     assert [bits("present"), bits("health")] == [False, True]
