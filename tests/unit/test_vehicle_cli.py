@@ -1,5 +1,9 @@
 """Bad options: one clear line that names the option, what was found and what was expected, and exit code 2."""
 
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 from typer.testing import CliRunner
 
@@ -27,6 +31,8 @@ from fakevehicle.cli import app
         (["--home", "0,0,1e300,0"], ["--home 0,0,1e300,0", "altitude"]),
         (["--airframe", "nope"], ["--airframe nope", "x500"]),
         (["--seed", "-4"], ["seed -4"]),
+        (["--count", "0"], ["--count 0", "1 to 100"]),
+        (["--count", "5", "--instance", "251"], ["--instance 251", "0 to 250"]),
         (["--airframe", "no_such_frame", "--connect", "udpin:127.0.0.1:0"], ["--airframe no_such_frame"]),
     ],
 )
@@ -37,3 +43,16 @@ def test_a_bad_option_is_one_line_and_exit_code_2(arguments: list[str], words: l
     for word in words:
         assert word in result.stderr
     assert result.stdout == ""
+
+
+def test_a_folder_that_cannot_be_made_ends_before_the_flight(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    run = subprocess.run(
+        [sys.executable, "-m", "fakevehicle", "--connect", "udpin:127.0.0.1:0", "--record", str(tmp_path / "file/x")],
+        capture_output=True,
+        text=True,
+        timeout=90,
+        check=False,
+    )
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "cannot make the folder" in run.stderr
