@@ -85,6 +85,23 @@ class Fault:
             raise ValueError(f"{what}: index {self.index}, expected 0..7")
 
 
+TYPICAL: dict[Sensor, dict[FaultKind, tuple[float, ...]]] = {
+    Sensor.GYRO: {FaultKind.BIAS: (0.2,), FaultKind.NOISE: (0.2,), FaultKind.DELAY: (0.02,)},
+    Sensor.ACCEL: {FaultKind.BIAS: (1.0,), FaultKind.NOISE: (2.0,), FaultKind.DELAY: (0.02,)},
+    Sensor.GPS: {
+        FaultKind.BIAS: (30.0, 30.0, 0.0, 0.0, 0.0, 0.0),
+        FaultKind.NOISE: (10.0, 10.0, 15.0, 2.0, 2.0, 3.0),
+        FaultKind.DELAY: (0.5,),
+    },
+    Sensor.BARO: {FaultKind.BIAS: (10.0,), FaultKind.NOISE: (5.0,), FaultKind.DELAY: (0.5,)},
+    Sensor.MAG: {FaultKind.BIAS: (0.2,), FaultKind.NOISE: (0.3,), FaultKind.DELAY: (0.5,)},
+    Sensor.RANGE: {FaultKind.BIAS: (3.0,), FaultKind.NOISE: (2.0,), FaultKind.DELAY: (0.5,)},
+    Sensor.OBSTACLE: {FaultKind.BIAS: (3.0,), FaultKind.NOISE: (2.0,), FaultKind.DELAY: (0.5,)},
+    Sensor.BATTERY: {FaultKind.BIAS: (-2.0, 0.0, -0.5), FaultKind.NOISE: (1.0, 5.0, 0.1), FaultKind.DELAY: (2.0,)},
+    Sensor.MOTOR: {FaultKind.BIAS: (0.65,)},
+}
+"""Magnitudes for who asks for a fault without one, as MAV_CMD_INJECT_FAILURE does: large enough to be noticed."""
+
 _TEXT = re.compile(
     r"(?P<sensor>[a-z]+)(?P<index>\d?):(?P<kind>[a-z]+)(=(?P<magnitude>[^@]+))?(@(?P<start>[\d.]+)(-(?P<end>[\d.]+))?)?"
 )

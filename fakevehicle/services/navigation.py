@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from fakevehicle.codec import Message
-from fakevehicle.faults import Fault, FaultKind, Sensor
+from fakevehicle.faults import TYPICAL, Fault, FaultKind, Sensor
 from fakevehicle.fence import FenceMonitor
 from fakevehicle.modes import Event, Refusal
 from fakevehicle.places import Places
@@ -225,7 +225,7 @@ class Navigation(Service):
         return Verdict(_m.MAV_RESULT_UNSUPPORTED, "start the simulator anew instead")
 
     def _inject_failure(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        """FAILURE_UNIT, FAILURE_TYPE and instance (0: the first): off, stuck or, with OK, well again from now on."""
+        """FAILURE_UNIT, FAILURE_TYPE and instance (0: the first): failing or, with OK, well again from now on."""
         unit, kind, instance = (round(p) if math.isfinite(p) else -1 for p in command.params[:3])
         sensor = _UNITS.get(unit)
         if sensor is None:
@@ -236,9 +236,11 @@ class Navigation(Service):
             self._mend(sensor, now_us)
             return ACCEPTED
         fault = _FAILURES.get(kind)
-        if fault is None:
-            return Verdict(_m.MAV_RESULT_UNSUPPORTED, f"param2 is {kind}, expected ok (0), off (1) or stuck (2)")
-        self._inject(Fault(sensor=sensor, kind=fault, start_us=now_us, index=max(instance - 1, 0)))
+        magnitude = () if fault in _PLAIN else TYPICAL[sensor].get(fault) if fault is not None else None
+        if fault is None or magnitude is None:
+            known = "ok (0), off (1), stuck (2), garbage (3), wrong (4) or delayed (6)"
+            return Verdict(_m.MAV_RESULT_UNSUPPORTED, f"param2 is {kind}, expected {known}")
+        self._inject(Fault(sensor, fault, now_us, None, magnitude, max(instance - 1, 0)))
         return ACCEPTED
 
 
@@ -251,5 +253,13 @@ _UNITS = {
     _m.FAILURE_UNIT_SENSOR_DISTANCE_SENSOR: Sensor.RANGE,
     _m.FAILURE_UNIT_SYSTEM_BATTERY: Sensor.BATTERY,
     _m.FAILURE_UNIT_SYSTEM_MOTOR: Sensor.MOTOR,
+    _m.FAILURE_UNIT_SYSTEM_AVOIDANCE: Sensor.OBSTACLE,
 }
-_FAILURES = {_m.FAILURE_TYPE_OFF: FaultKind.OFF, _m.FAILURE_TYPE_STUCK: FaultKind.STUCK}
+_FAILURES = {
+    _m.FAILURE_TYPE_OFF: FaultKind.OFF,
+    _m.FAILURE_TYPE_STUCK: FaultKind.STUCK,
+    _m.FAILURE_TYPE_GARBAGE: FaultKind.NOISE,
+    _m.FAILURE_TYPE_WRONG: FaultKind.BIAS,
+    _m.FAILURE_TYPE_DELAYED: FaultKind.DELAY,
+}
+_PLAIN = (FaultKind.OFF, FaultKind.STUCK)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from vehicle_pilot import ACCEPTED, HOLD, NAN, Pilot
+from vehicle_pilot import ACCEPTED, HOLD, NAN, UNSUPPORTED, Pilot
 
 from fakevehicle.config import LinkConfig, VehicleConfig
 from fakevehicle.faults import parse_fault
@@ -70,6 +70,23 @@ def test_a_silent_sensor_loses_its_health_and_the_vehicle_keeps_its_place(unit: 
     assert not healthy(pilot) & bit
     assert flags(pilot) & (HORIZONTAL | VERTICAL) == HORIZONTAL | VERTICAL
     assert pilot.mode == HOLD
+
+
+def test_every_unit_can_be_made_to_fail_in_every_way_it_has_and_other_ways_are_refused_with_the_reason() -> None:
+    units = [0, 1, 2, 3, 4, 7, 100, 101, 103]  # FAILURE_UNIT: IMU, field, pressure, GPS, range, battery, motor, lidar
+    kinds = [1, 2, 3, 4, 6]  # off, stuck, garbage, wrong, delayed
+    pilot = Pilot(Vehicle(VehicleConfig(links=(LinkConfig("onboard"),), seed=42)))
+    pilot.run(3.0)
+    for unit in units:
+        for kind in kinds:
+            possible = unit != 101 or kind in (1, 2, 4)
+            assert pilot.command(420, unit, kind, 0) == (ACCEPTED if possible else UNSUPPORTED)
+            pilot.run(0.02)
+            assert pilot.command(420, unit, 0, 0) == ACCEPTED
+    assert pilot.command(420, 4, 7, 0) == UNSUPPORTED
+    assert "param2 is 7" in pilot.texts()[-1]
+    pilot.run(2.0)
+    assert healthy(pilot) & m.MAV_SYS_STATUS_SENSOR_GPS
 
 
 def test_a_fault_of_the_configuration_comes_at_its_time() -> None:
