@@ -11,22 +11,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fakevehicle import course, failsafes, fence, mission_runner, navigator
+from fakevehicle import course, failsafes, fence, mission_runner, navigator, setpoint_stream
 from fakevehicle.failsafes import EVENTS, Action, Failsafes, Trigger, Tripped, battery_triggers
 from fakevehicle.fence import FenceMonitor
-from fakevehicle.guidance import asks_to_climb, asks_to_sink, completed
-from fakevehicle.landing import TOUCH_THRUST, LandDetector
+from fakevehicle.landing import LandDetector
 from fakevehicle.mission_runner import MissionRunner
 from fakevehicle.modes import TRANSITIONS, Conditions, Event, Mode, Refusal, Special, refusal
 from fakevehicle.navigator import ARRIVED, Navigator
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.places import Places
 from fakevehicle.plans import PlanStore
+from fakevehicle.setpoint_stream import SetpointStream
 from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
 
 CRITICAL, WARNING, INFO = 2, 4, 6
-LIFT_PATIENCE_US = 2_000_000
-"""A standing vehicle in OFFBOARD keeps its motors flying this long after the last setpoint that asked to climb."""
 
 _I = ParameterType.INT32
 PARAMETERS: tuple[Parameter, ...] = (
@@ -35,9 +33,9 @@ PARAMETERS: tuple[Parameter, ...] = (
     *mission_runner.PARAMETERS,
     *fence.PARAMETERS,
     *failsafes.PARAMETERS,
+    *setpoint_stream.PARAMETERS,
     Parameter("COM_DISARM_LAND", 2.0, -1.0, 20.0, "s", "Disarm this long after a landing; not above 0: never"),
     Parameter("COM_DISARM_PRFLT", 10.0, -1.0, 60.0, "s", "Disarm when nobody takes off; not above 0: never"),
-    Parameter("GUID_TIMEOUT", 3.0, 0.1, 10.0, "s", "Guided mode: setpoints without a position are flown this long"),
 )
 
 _FLY_BLIND = (Mode.LAND, Mode.STABILIZED, Mode.ALTITUDE)
@@ -90,14 +88,11 @@ class Supervisor:
         self.entered = 0
         self.remaining = 1.0
         self._glance: Glance | None = None
-        self._hover = hover
         self._ground = LandDetector(hover)
         self._flown = False  # since it was armed
         self._changed_us = 0  # when it was armed or last stood down
-        self._asked: Setpoint | None = None  # newest OFFBOARD setpoint
-        self._asked_us = 0
+        self._stream = SetpointStream(parameters, hover)
         self._stream_lost = False  # a lost stream has led to this mode
-        self._climb_us: int | None = None  # newest OFFBOARD setpoint that asked a standing vehicle to climb
         self._station_us: int | None = None  # newest heartbeat of a ground station
         self._position_us: int | None = None  # when position was good last, since it was armed
 
@@ -140,7 +135,7 @@ class Supervisor:
     @property
     def asked(self) -> Setpoint | None:
         """The newest setpoint of a peer; None when something else has taken its place."""
-        return self._asked
+        return self._stream.newest
 
     def conditions(self, now_us: int) -> Conditions:
         """What the guards look at, now."""
@@ -162,7 +157,7 @@ class Supervisor:
 
     def setpoints_fresh(self, now_us: int) -> bool:
         """Whether an OFFBOARD setpoint came within COM_OF_LOSS_T."""
-        return self._asked is not None and now_us - self._asked_us < self._parameters["COM_OF_LOSS_T"] * 1e6
+        return self._stream.fresh(now_us)
 
     def why_not_armable(self, now_us: int) -> Refusal | None:
         """The reason arming would be refused, None when it would not: the PREARM bit of SYS_STATUS."""
@@ -204,7 +199,7 @@ class Supervisor:
         if reason is None:
             self.navigator.takeoff_z = z
             if self.mode is Mode.GUIDED:
-                self._asked = None
+                self._stream.newest = None
                 self.navigator.take_off(now_us, z, None if self.home is None else self.home.position_n)
         return reason
 
@@ -214,7 +209,8 @@ class Supervisor:
             return Refusal.OUTSIDE_FENCE
         reason = self.ask(Event.ASK_GOTO, now_us)
         if reason is None:
-            self._asked = None if self.mode is Mode.GUIDED else self._asked
+            if self.mode is Mode.GUIDED:
+                self._stream.newest = None
             self.navigator.go_to(now_us, position_n, yaw, speed)
         return reason
 
@@ -234,8 +230,7 @@ class Supervisor:
 
     def offboard(self, now_us: int, setpoint: Setpoint) -> None:
         """A setpoint from a peer. It is flown in OFFBOARD and GUIDED only, but keeps the stream fresh in any mode."""
-        self._asked = completed(setpoint)
-        self._asked_us = now_us
+        self._stream.take(now_us, setpoint)
 
     def ground_station(self, now_us: int) -> None:
         """A heartbeat of a ground station: the data link stands."""
@@ -259,7 +254,7 @@ class Supervisor:
         if self.airborne is not was_airborne:
             self._changed_us = now_us
             self._flown = self._flown or self.airborne
-            self._climb_us = None
+            self._stream.settle()
             self.notes.append((INFO, "Takeoff detected" if self.airborne else "Landing detected"))
         if self.home is not None and glance.position_valid:
             self.fence.step(now_us, np.array([glance.x, glance.y, glance.z]), self.home.position_n)
@@ -278,11 +273,13 @@ class Supervisor:
         if not self.armed or self._glance is None or self._ground.touching:
             return None
         if self.mode is Mode.OFFBOARD:
-            return self._offboard_setpoint(now_us, self._glance)
+            return self._stream.offboard(now_us, self._glance.z, self.airborne)
         if self.mode is Mode.GUIDED and self.airborne and not self.navigator.climbing:
-            asked = self._guided_setpoint(now_us)
+            flying, asked = self._stream.newest is not None, self._stream.guided(now_us)
             if asked is not None:
                 return asked
+            if flying:  # until now: it has grown too old
+                self.navigator.course.stop(self._glance, moving=True)
         home_n = self.navigator.course.anchor_n if self.home is None else self.home.position_n
         flown = self.navigator.setpoint(self.mode, now_us, self._glance, self.airborne, self._flown, home_n)
         if isinstance(flown, Event):
@@ -292,10 +289,8 @@ class Supervisor:
 
     def _sinking(self, glance: Glance) -> bool:
         """Whether what is flown now leads downwards."""
-        asked = self._asked
-        if self.mode is Mode.OFFBOARD and asked is not None:
-            by_thrust = not math.isnan(asked.thrust)
-            return asked.thrust < TOUCH_THRUST * self._hover if by_thrust else asks_to_sink(asked, glance.z)
+        if self.mode is Mode.OFFBOARD:
+            return self._stream.sinks(glance.z)
         return self.landing
 
     def _triggers(self, now_us: int, glance: Glance) -> list[Trigger]:
@@ -311,9 +306,7 @@ class Supervisor:
         silent_s = 0.0 if self._station_us is None else (now_us - self._station_us) * 1e-6
         if silent_s > self._parameters["COM_DL_LOSS_T"]:
             triggers.append(Trigger.LINK_LOST)
-        blind = self.mode in _FLY_BLIND or (
-            self.mode is Mode.OFFBOARD and self._asked is not None and not math.isnan(self._asked.thrust)
-        )
+        blind = self.mode in _FLY_BLIND or (self.mode is Mode.OFFBOARD and self._stream.by_thrust)
         blind_s = 0.0 if self._position_us is None else (now_us - self._position_us) * 1e-6
         if blind_s > self._parameters["COM_POS_FS_DELAY"] and not blind:
             triggers.append(Trigger.POSITION_LOST)
@@ -389,28 +382,5 @@ class Supervisor:
         """Begin a mode."""
         self.mode = mode
         self.entered += 1
-        self._climb_us = None
+        self._stream.settle()
         self.navigator.begin(mode, self._glance, self.airborne)
-
-    def _offboard_setpoint(self, now_us: int, glance: Glance) -> Setpoint | None:
-        """The peer's setpoint; a standing vehicle idles until one asks to climb."""
-        asked = self._asked
-        if asked is None or self.airborne:
-            return asked
-        if asks_to_climb(asked, glance.z):
-            self._climb_us = now_us
-        lifting = self._climb_us is not None and now_us - self._climb_us < LIFT_PATIENCE_US
-        return asked if lifting else None
-
-    def _guided_setpoint(self, now_us: int) -> Setpoint | None:
-        """The peer's setpoint as long as it holds: for ever with a position, else for GUID_TIMEOUT; then a stop."""
-        asked = self._asked
-        if asked is None:
-            return None
-        old_s = (now_us - self._asked_us) * 1e-6
-        if not math.isnan(float(asked.position_n[0])) or old_s < self._parameters["GUID_TIMEOUT"]:
-            return asked
-        self._asked = None
-        if self._glance is not None:
-            self.navigator.course.stop(self._glance, moving=True)
-        return None
