@@ -173,6 +173,18 @@ def test_without_gps_a_vehicle_that_has_landed_knows_that_it_stands_still() -> N
     assert not run.stack.estimate.velocity_valid
 
 
+def test_until_its_first_fault_a_flight_is_the_same_as_without() -> None:
+    kinds = ("off", "stuck", "bias=1", "noise=1", "delay=0.1")
+    sensors = ("gyro", "accel", "gps", "baro", "mag", "range", "battery")
+    ends = []
+    for faults in ((), tuple(f"{sensor}:{kind}@12" for sensor in sensors for kind in kinds)):
+        run = Run(seed=13, faults=faults)
+        while run.t < 11.99:
+            run.tick(Setpoint(position_n=HOVER, yaw=0.5) if run.t > 7.0 else None)
+        ends.append(np.concatenate([run.stack._x, run.stack.estimator.out]))
+    np.testing.assert_array_equal(ends[0], ends[1])
+
+
 def test_the_same_faults_and_seed_give_the_same_flight() -> None:
     ends = []
     for _ in range(2):
