@@ -43,7 +43,7 @@ class LoopDefaults:
 FOPID_LOOPS = (
     LoopDefaults(
         name="VXY", what="horizontal velocity", unit="1/s", loops=(0, 1), band=(0.05, 75.0), cutoff=30.0,
-        kp=5.0, kt=0.8, ki=2.5, ki0=0.0, kd=0.0, lam=0.9, mu=0.9, tilt_n=3.0, limit=6.0,
+        kp=5.0, kt=1.6, ki=3.0, ki0=0.0, kd=0.0, lam=0.9, mu=0.9, tilt_n=3.0, limit=6.0,
     ),
     LoopDefaults(
         name="VZ", what="vertical velocity", unit="1/s", loops=(2,), band=(0.05, 75.0), cutoff=30.0,

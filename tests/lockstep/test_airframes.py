@@ -33,7 +33,7 @@ def test_an_airframe_can_hover_with_thrust_to_spare_and_a_source_for_every_numbe
 )
 def test_it_takes_off_hovers_and_lands(name: str, gains: Gains) -> None:
     vehicle = Vehicle(VehicleConfig(airframe=name, gains=gains, wind_n=np.array([1.0, 0.5, 0.0])))
-    assert vehicle.parameters["FT_VXY_KT"] == pytest.approx({"default": 0.8, "tid": 8.5}.get(gains, 0.0))
+    assert vehicle.parameters["FT_VXY_KT"] == pytest.approx({"default": 1.6, "tid": 8.5}.get(gains, 0.0))
     pilot = Pilot(vehicle)
     pilot.run(8.0)
     # WHEN it is armed and asked to take off
