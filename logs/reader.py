@@ -187,6 +187,7 @@ class Recording:
         position = file.seek(len(MAGIC))
         channels: dict[int, ChannelInfo] = {}
         schemas: dict[int, str] = {}
+        summary = False
         crc = zlib.crc32(magic)  # of everything so far; from DataEnd on, of the summary
         while True:
             head = file.read(_RECORD.size)
@@ -216,9 +217,14 @@ class Recording:
                     yield _TOP_LEVEL[opcode](ReadDataStream(BytesIO(body)))
                 elif opcode == Opcode.MESSAGE:
                     raise ValueError("a message outside a chunk")
+                elif not summary and opcode == Opcode.MESSAGE_INDEX:
+                    _check_index(body)
+                elif not summary:
+                    raise ValueError(f"a record of kind {opcode}, which no recording has between its chunks")
             except (ValueError, struct.error, EndOfFile, zstandard.ZstdError, KeyError) as error:
                 yield _Problem(f"damaged at byte {position}: {error}")
                 return
+            summary = summary or opcode == Opcode.DATA_END
             crc = 0 if opcode == Opcode.DATA_END else zlib.crc32(body, zlib.crc32(head, crc))
             position += _RECORD.size + length
 
@@ -263,6 +269,12 @@ _TOP_LEVEL: dict[int, Any] = {
     Opcode.METADATA: Metadata.read,
     Opcode.ATTACHMENT: McapAttachment.read,
 }
+
+
+def _check_index(body: bytes) -> None:
+    """A message index, by its lengths: a chunk whose kind was damaged must not be passed over as one."""
+    if len(body) < 6 or struct.unpack_from("<I", body, 2)[0] != len(body) - 6:
+        raise ValueError("a message index of the wrong length")
 
 
 def _check(written: int, found: int, what: str) -> None:

@@ -5,10 +5,12 @@ from pathlib import Path
 
 import pytest
 from logs_traffic import PEER, captured, heartbeat, record_captured
+from mcap.opcode import Opcode
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
 
 from logs import Attachment, Recording, RecordingError, SchemaVersionError, schema
+from logs.container import MAGIC
 from logs.info import info
 from logs.recorder import Recorder
 
@@ -91,6 +93,25 @@ def test_one_flipped_bit_is_noticed_wherever_it_is(whole: Path, tmp_path: Path) 
         found = list(recording.messages())
         assert not recording.complete, position
         assert found == everything[: len(found)]
+
+
+@pytest.mark.parametrize("bit", range(8))
+def test_a_chunk_whose_kind_is_damaged_is_not_passed_over(whole: Path, tmp_path: Path, bit: int) -> None:
+    data = bytearray(whole.read_bytes())
+    everything = list(Recording.open(whole).messages())
+    position, chunks = len(MAGIC), []
+    while position < len(data) - len(MAGIC):
+        if data[position] == Opcode.CHUNK:
+            chunks.append(position)
+        position += 9 + int.from_bytes(data[position + 1 : position + 9], "little")
+    data[chunks[1]] ^= 1 << bit
+    damaged = tmp_path / "damaged.mcap"
+    damaged.write_bytes(data)
+    recording = Recording.open(damaged)
+    found = list(recording.messages())
+    assert not recording.complete
+    assert 0 < len(found) < len(everything)
+    assert found == everything[: len(found)]
 
 
 @pytest.mark.parametrize(
