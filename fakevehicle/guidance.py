@@ -114,12 +114,6 @@ def return_height(height: float, distance: float, highest: float) -> float:
     return max(height, min(highest, distance))
 
 
-def yaw_of(q_nb: FloatArray) -> float:
-    """Heading of the body's x axis [rad] in -pi..pi, from a wxyz quaternion."""
-    w, x, y, z = q_nb.tolist()
-    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-
 def completed(asked: Setpoint) -> Setpoint:
     """The setpoint with something to follow on every axis: an axis nobody asked for stands still (velocity zero).
 

@@ -116,11 +116,6 @@ class Refusal(Enum):
     BELOW = "that altitude is below the vehicle"
 
     PARAMETERS = "the parameters ask for what would not happen"
-    UNKNOWN_MODE = "this vehicle has no such mode"
-    UNKNOWN_MESSAGE = "this vehicle has no such message"
-    UNKNOWN_STREAM = "this vehicle has no such stream"
-    NOTHING_YET = "nothing to say yet"
-    UNSUPPORTED = "this vehicle does not have it"
 
 
 Outcome = Mode | Special

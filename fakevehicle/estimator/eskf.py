@@ -103,13 +103,6 @@ class ErrorStateFilter(ExtendedKalmanFilter):  # type: ignore[misc]  # filterpy 
         self.update(0.0, lambda _: H, _zero, R=R, residual=lambda _z, _h: y)
         inject(self.nominal, self.x, self.P, self._scratch)
 
-    def fuse(self, measurement: Measurement, gate: float) -> Fusion:
-        """Weigh a measurement and, when its NIS is below `gate`, take it in."""
-        fusion = self.weigh(measurement, gate)
-        if fusion.accepted:
-            self.take([measurement])
-        return fusion
-
     def forget(self, states: Sequence[int], sigma: float) -> None:
         """Know nothing of some states any more: no correlation with the others, and this 1 sigma each."""
         for i in states:

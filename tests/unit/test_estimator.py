@@ -132,8 +132,9 @@ def test_an_update_moves_the_state_as_the_gain_says_and_keeps_p_symmetric() -> N
     nominal = some_state(4)
     f = ErrorStateFilter(nominal, np.full(15, 0.3), G)
     z = nominal[:2] + np.array([0.5, -0.2])
-    fusion = f.fuse(measurements.gps_position(f.nominal, np.array([*z, 0.0]), 0.4), 13.8)
-    assert fusion.accepted
+    measurement = measurements.gps_position(f.nominal, np.array([*z, 0.0]), 0.4)
+    assert f.weigh(measurement, 13.8).accepted
+    f.take([measurement])
     share = 0.09 / (0.09 + 0.16)
     np.testing.assert_allclose(f.nominal[:2] - nominal[:2], share * np.array([0.5, -0.2]), rtol=1e-9)
     np.testing.assert_allclose(f.P, f.P.T, atol=0)
@@ -144,7 +145,7 @@ def test_an_update_moves_the_state_as_the_gain_says_and_keeps_p_symmetric() -> N
 def test_a_wild_measurement_is_refused_and_changes_nothing() -> None:
     f = ErrorStateFilter(some_state(5), np.full(15, 0.1), G)
     before, P = f.nominal.copy(), f.P.copy()
-    fusion = f.fuse(measurements.baro(f.nominal, 500.0, 0.2), 10.83)
+    fusion = f.weigh(measurements.baro(f.nominal, 500.0, 0.2), 10.83)
     assert not fusion.accepted
     assert fusion.nis > 1000
     np.testing.assert_array_equal(f.nominal, before)

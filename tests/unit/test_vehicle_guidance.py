@@ -12,7 +12,6 @@ from fakevehicle.guidance import (
     landing_speed,
     return_height,
     stopping_point,
-    yaw_of,
 )
 from fakevehicle.vocabulary import Setpoint
 
@@ -68,11 +67,6 @@ def test_a_return_climbs_no_more_than_it_is_away_and_never_sinks() -> None:
     assert return_height(5.0, 20.0, 30.0) == 20.0
     assert return_height(5.0, 200.0, 30.0) == 30.0
     assert return_height(50.0, 200.0, 30.0) == 50.0
-
-
-@pytest.mark.parametrize("yaw", [-3.0, -0.5, 0.0, 1.0, 3.1])
-def test_yaw_of_a_turn_about_the_vertical_is_its_angle(yaw: float) -> None:
-    assert yaw_of(np.array([math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)])) == pytest.approx(yaw)
 
 
 def test_an_axis_nobody_asked_for_stands_still() -> None:
