@@ -115,8 +115,6 @@ class Refusal(Enum):
     OUTSIDE_FENCE = "outside the fence"
     BELOW = "that altitude is below the vehicle"
 
-    PARAMETERS = "the parameters ask for what would not happen"
-
 
 Outcome = Mode | Special
 
