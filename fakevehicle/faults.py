@@ -146,7 +146,7 @@ class FaultSchedule:
 
     def concerns(self, sensor: Sensor) -> bool:
         """Whether there is, was or will be a fault of this one; cheap enough for every sample."""
-        return sensor in self._concerned
+        return bool(self._faults) and sensor in self._concerned  # mostly there are none, and enums hash slowly
 
     def add(self, fault: Fault) -> None:
         """One more; when there are `MOST`, the oldest is forgotten."""
