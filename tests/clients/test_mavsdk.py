@@ -1,50 +1,32 @@
 """MAVSDK (PyPI, its current synchronous API) flies the vehicle's process: connect, arm, take off, offboard, land."""
 
 import math
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from vehicle_process import VehicleProcess, free_port
 
-mavsdk = pytest.importorskip("mavsdk")
+pytest.importorskip("mavsdk")
 
-from mavsdk import ComponentType, Configuration, Mavsdk  # noqa: E402  (after the skip)
-from mavsdk.plugins.action import Action, ActionError  # noqa: E402
-from mavsdk.plugins.info import Info  # noqa: E402
-from mavsdk.plugins.offboard import Offboard, OffboardError, PositionNedYaw  # noqa: E402
-from mavsdk.plugins.param import Param  # noqa: E402
-from mavsdk.plugins.telemetry import FlightMode, LandedState, Telemetry  # noqa: E402
+from mavsdk.plugins.action import Action, ActionError
+from mavsdk.plugins.info import Info
+from mavsdk.plugins.offboard import Offboard, OffboardError, PositionNedYaw
+from mavsdk.plugins.param import Param
+from mavsdk.plugins.telemetry import FlightMode, LandedState
+from mavsdk_sync import answers, connected, healthy, until
 
 pytestmark = pytest.mark.udp
 
 
 @pytest.fixture
 def system() -> Iterator[Any]:
-    """MAVSDK's view of a vehicle that calls it."""
-    port = free_port()
-    with VehicleProcess("--connect", f"udpout:127.0.0.1:{port}", "--seed", "5") as vehicle:
-        client = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-        try:
-            client.add_any_connection(f"udpin://127.0.0.1:{port}")
-            found = client.first_autopilot(20.0)
-            assert found is not None, vehicle.log
-            yield found
-        finally:
-            client.destroy()
-
-
-def until(condition: Callable[[], bool], seconds: float, what: str) -> None:
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, f"{what}: not within {seconds} s"
-        time.sleep(0.05)
+    """A vehicle as fast as life."""
+    with connected("--seed", "5") as found:
+        yield found
 
 
 def test_arm_take_off_fly_offboard_to_a_point_and_land(system: Any) -> None:
-    action, telemetry, offboard = Action(system), Telemetry(system), Offboard(system)
-    until(telemetry.health_all_ok, 20, "health")
+    action, telemetry, offboard = Action(system), healthy(system), Offboard(system)
     with pytest.raises(OffboardError):
         offboard.start()  # no setpoint has been set
     action.set_takeoff_altitude(2.0)
@@ -73,17 +55,8 @@ def test_arm_take_off_fly_offboard_to_a_point_and_land(system: Any) -> None:
 
 def test_version_and_parameters(system: Any) -> None:
     info, param = Info(system), Param(system)
-    until(lambda: _answers(info.get_version), 5, "version")
+    until(lambda: answers(info.get_version), 5, "version")
     assert param.get_param_int("COM_OBL_RC_ACT") == 5
     param.set_param_int("COM_OBL_RC_ACT", 4)
     assert param.get_param_int("COM_OBL_RC_ACT") == 4
     assert param.get_param_float("MPC_LAND_SPEED") == pytest.approx(0.7)
-
-
-def _answers(call: Callable[[], Any]) -> bool:
-    """MAVSDK raises until its first answer is in."""
-    try:
-        call()
-    except Exception:
-        return False
-    return True

@@ -1,21 +1,19 @@
-"""MAVSDK (PyPI, its current synchronous API) loads and flies a mission, loads a fence, and flies by attitude."""
+"""MAVSDK (PyPI, its current synchronous API) flies a mission, by attitude and home, and loads a fence."""
 
 import math
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from vehicle_process import VehicleProcess, free_port
 
-mavsdk = pytest.importorskip("mavsdk")
+pytest.importorskip("mavsdk")
 
-from mavsdk import ComponentType, Configuration, Mavsdk  # noqa: E402  (after the skip)
-from mavsdk.plugins.action import Action  # noqa: E402
-from mavsdk.plugins.geofence import FenceType, Geofence, GeofenceData, Point, Polygon  # noqa: E402
-from mavsdk.plugins.mission import Mission, MissionItem, MissionPlan  # noqa: E402
-from mavsdk.plugins.offboard import Attitude, AttitudeRate, Offboard  # noqa: E402
-from mavsdk.plugins.telemetry import FlightMode, Telemetry  # noqa: E402
+from mavsdk.plugins.action import Action
+from mavsdk.plugins.geofence import FenceType, Geofence, GeofenceData, Point, Polygon
+from mavsdk.plugins.mission import Mission, MissionItem, MissionPlan
+from mavsdk.plugins.offboard import Attitude, AttitudeRate, Offboard
+from mavsdk.plugins.telemetry import FlightMode, LandedState
+from mavsdk_sync import connected, healthy, until
 
 pytestmark = pytest.mark.udp
 
@@ -27,24 +25,9 @@ NAN = math.nan
 
 @pytest.fixture
 def system() -> Iterator[Any]:
-    """MAVSDK's view of a vehicle that calls it, four times as fast as life."""
-    port = free_port()
-    with VehicleProcess("--connect", f"udpout:127.0.0.1:{port}", "--seed", "6", "--speed", "4") as vehicle:
-        client = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
-        try:
-            client.add_any_connection(f"udpin://127.0.0.1:{port}")
-            found = client.first_autopilot(20.0)
-            assert found is not None, vehicle.log
-            yield found
-        finally:
-            client.destroy()
-
-
-def until(condition: Callable[[], bool], seconds: float, what: str) -> None:
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, f"{what}: not within {seconds} s"
-        time.sleep(0.02)
+    """A vehicle four times as fast as life."""
+    with connected("--seed", "6", "--speed", "4") as found:
+        yield found
 
 
 def place(north: float, east: float, up: float, *, through: bool, stay: float = NAN) -> MissionItem:
@@ -69,8 +52,7 @@ def place(north: float, east: float, up: float, *, through: bool, stay: float = 
 
 
 def test_a_mission_is_loaded_read_back_flown_paused_and_returned_from(system: Any) -> None:
-    action, telemetry, mission = Action(system), Telemetry(system), Mission(system)
-    until(telemetry.health_all_ok, 20, "health")
+    action, telemetry, mission = Action(system), healthy(system), Mission(system)
     plan = MissionPlan(
         [
             place(6.0, 0.0, 4.0, through=True),
@@ -96,8 +78,8 @@ def test_a_mission_is_loaded_read_back_flown_paused_and_returned_from(system: An
 
 
 def test_a_fence_is_loaded_and_cleared(system: Any) -> None:
-    telemetry, fence = Telemetry(system), Geofence(system)
-    until(telemetry.health_all_ok, 20, "health")
+    healthy(system)
+    fence = Geofence(system)
     corners = [Point(LATITUDE + n * NORTH, LONGITUDE + e * EAST) for n, e in ((-9, -9), (9, -9), (9, 9), (-9, 9))]
     fence.upload_geofence(GeofenceData([Polygon(corners, FenceType.INCLUSION)], []))
     (polygon,) = fence.download_geofence().polygons
@@ -105,9 +87,42 @@ def test_a_fence_is_loaded_and_cleared(system: Any) -> None:
     fence.clear_geofence()
 
 
+def test_a_return_climbs_comes_home_lands_and_disarms(system: Any) -> None:
+    action, telemetry = Action(system), healthy(system)
+    home = telemetry.home()
+    action.set_takeoff_altitude(4.0)
+    action.set_return_to_launch_altitude(8.0)
+    assert action.get_return_to_launch_altitude() == 8.0
+    action.arm()
+    action.takeoff()
+    until(lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air(), 20, "takeoff")
+    latitude, longitude = home.latitude_deg + 20.0 * NORTH, home.longitude_deg - 10.0 * EAST
+    action.goto_location(latitude, longitude, home.absolute_altitude_m + 4.0, NAN)
+
+    def away() -> float:
+        position = telemetry.position()
+        north = (position.latitude_deg - home.latitude_deg) / NORTH
+        return math.hypot(north, (position.longitude_deg - home.longitude_deg) / EAST)
+
+    until(lambda: away() > 21.0, 20, "the place")
+    action.return_to_launch()
+    until(lambda: telemetry.flight_mode() == FlightMode.RETURN_TO_LAUNCH, 5, "the return")
+    heights: list[float] = []
+
+    def over_home() -> bool:
+        heights.append(telemetry.position().relative_altitude_m)
+        return away() < 1.0
+
+    until(over_home, 30, "home")
+    assert max(heights) == pytest.approx(8.0, abs=0.5)
+    until(lambda: telemetry.landed_state() == LandedState.ON_GROUND, 40, "landing")
+    until(lambda: not telemetry.armed(), 5, "disarming")
+    assert away() < 0.6
+    assert abs(telemetry.position().relative_altitude_m) < 0.6
+
+
 def test_attitudes_and_body_rates_are_flown(system: Any) -> None:
-    action, telemetry, offboard = Action(system), Telemetry(system), Offboard(system)
-    until(telemetry.health_all_ok, 20, "health")
+    action, telemetry, offboard = Action(system), healthy(system), Offboard(system)
     action.set_takeoff_altitude(15.0)
     action.arm()
     action.takeoff()

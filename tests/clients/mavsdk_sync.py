@@ -1,0 +1,54 @@
+"""MAVSDK's current Python API (PyPI, 4.x) against the vehicle's process: both end with the block."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.telemetry import Telemetry
+from vehicle_process import VehicleProcess, free_port
+
+
+@contextmanager
+def connected(*arguments: str) -> Iterator[Any]:
+    """MAVSDK's view of a vehicle that calls it.
+
+    Parameters
+    ----------
+    arguments : more of the vehicle's command line.
+    """
+    port = free_port()
+    with VehicleProcess("--connect", f"udpout:127.0.0.1:{port}", *arguments) as vehicle:
+        client = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
+        try:
+            client.add_any_connection(f"udpin://127.0.0.1:{port}")
+            found = client.first_autopilot(20.0)
+            assert found is not None, vehicle.log
+            yield found
+        finally:
+            client.destroy()
+
+
+def until(condition: Callable[[], object], seconds: float, what: str) -> None:
+    """Wait for a condition."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, f"{what}: not within {seconds} s"
+        time.sleep(0.02)
+
+
+def healthy(system: Any) -> Telemetry:
+    """The system's telemetry, once it says that all is well."""
+    telemetry = Telemetry(system)
+    until(telemetry.health_all_ok, 20, "health")
+    return telemetry
+
+
+def answers(call: Callable[[], Any]) -> bool:
+    """Whether MAVSDK has an answer yet; it raises until the first one is in."""
+    try:
+        call()
+    except Exception:
+        return False
+    return True
