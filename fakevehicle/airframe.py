@@ -1,8 +1,12 @@
 """The airframe: a YAML file checked once, and the flat record the kernels read.
 
+A file may say which values of the parameters it flies well with; they take the place of the defaults, and whoever asks
+for other values gets them.
+
 Frame: body FRD, origin at the centre of mass, SI units. Every number of a shipped file names its source.
 """
 
+from collections.abc import Iterable, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from fakevehicle.battery import Pack
 from fakevehicle.errors import AirframeError
+from fakevehicle.params import Parameter
 from fakevehicle.vocabulary import FloatArray
 
 GRAVITY = 9.80665
@@ -95,6 +100,7 @@ class Airframe(BaseModel):
     contact_damping: NotNegative
     contact_friction: NotNegative
     battery: Pack
+    parameters: Mapping[str, Real] = {}  # that it flies well with, by name, where they differ from the defaults
     source: dict[str, str]
 
     @model_validator(mode="after")
@@ -104,7 +110,7 @@ class Airframe(BaseModel):
             raise ValueError(f"full thrust {thrust:.3g} N cannot lift {self.mass:.3g} kg")
         if np.linalg.matrix_rank(self.allocation()) < 4:
             raise ValueError("the rotors cannot produce three torques and a thrust independently")
-        unnamed = set(type(self).model_fields) - {"name", "source"} - set(self.source)
+        unnamed = set(type(self).model_fields) - {"name", "parameters", "source"} - set(self.source)
         if unnamed:
             raise ValueError(f"no source given for {', '.join(sorted(unnamed))}")
         return self
@@ -123,6 +129,22 @@ class Airframe(BaseModel):
     def hover_speed(self) -> float:
         """Rotor speed at which the thrust balances the weight [rad/s]."""
         return float(np.sqrt(self.mass * GRAVITY / (4 * self.thrust_coefficient)))
+
+    def values(self, file: str, known: Iterable[Parameter]) -> Mapping[str, float]:
+        """The values its file asks for, each of one of the vehicle's `known` parameters and within its range.
+
+        Raises
+        ------
+        AirframeError : a name that is not known, or a value out of range; `file` is what the message calls the file.
+        """
+        described = {p.name: p for p in known}
+        for name, value in self.parameters.items():
+            if name not in described:
+                raise AirframeError(file, f"parameters.{name}", f"{value:g}", "a parameter of the vehicle's own names")
+            low, high = described[name].minimum, described[name].maximum
+            if not low <= value <= high:
+                raise AirframeError(file, f"parameters.{name}", f"{value:g}", f"{low:g} to {high:g}")
+        return self.parameters
 
     def record(self) -> np.ndarray[Any, np.dtype[np.void]]:
         """The (1,) array of `BODY` the kernels read."""

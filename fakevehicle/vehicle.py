@@ -122,9 +122,11 @@ class Vehicle:
         self.config = config
         flavour = self._flavour = flavour_of(config.autopilot)
         preset = PRESETS[config.gains]
-        overrides = {"MAV_SYS_ID": config.system_id, **flavour.defaults, **preset, **(parameters or {})}
-        self.parameters = ParameterSet(_distinct((*PARAMETERS, *flavour.parameters)), overrides)
         airframe = load_airframe(config.airframe)
+        known = _distinct((*PARAMETERS, *flavour.parameters))
+        own = airframe.values(config.airframe, known)
+        overrides = {"MAV_SYS_ID": config.system_id, **own, **flavour.defaults, **preset, **(parameters or {})}
+        self.parameters = ParameterSet(known, overrides)
         self._stack = FlightStack(
             airframe=airframe,
             parameters=self.parameters,
