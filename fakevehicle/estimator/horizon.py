@@ -3,7 +3,7 @@
 Theory of operation. GPS arrives 110 ms after it was true. The filter therefore runs on a horizon that lies that far
 behind the newest IMU sample: IMU samples wait in a ring, others wait until the horizon reaches the time they were true.
 An output predictor (`predictor`) carries the result to now, at the IMU's rate and inside the compiled tick, which has
-seen the filter of the tick before (PX4's EKF2 has the same structure). The filter itself takes two IMU samples at once
+seen the filter of the tick before (PX4's EKF2 has the same structure). The filter takes three IMU samples at once
 (`predict_us`), and what was true between two of its steps is moved to the later one with the velocity there. Before
 that, on the ground and at rest, `alignment` finds the start.
 

@@ -29,7 +29,7 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter("EKF2_GPS_DELAY", 110.0, 4, 300, "ms", "estimator: age of a fix when it arrives, read at the start"),
     Parameter("EKF2_REQ_GPS_H", 4.0, 0, 30, "s", "estimator: GPS must be good for this long before position is valid"),
     Parameter("EKF2_NOAID_TOUT", 5_000_000, 500_000, 10_000_000, "us", "estimator: refusal that ends in a reset", _I),
-    Parameter("EKF2_PREDICT_US", 8_000, 4_000, 20_000, "us", "estimator: period of the filter, read at the start", _I),
+    Parameter("EKF2_PREDICT_US", 12_000, 4_000, 20_000, "us", "estimator: period of the filter, read at the start", _I),
     Parameter("EKF2_MCOEF", 0.12, 0, 1, "1/s", "estimator: rotor drag per mass, holds velocity without GPS; 0: unused"),
     Parameter("EKF2_TAU_POS", 0.25, 0.1, 1, "s", "estimator: time constant of the predicted position"),
     Parameter("EKF2_TAU_VEL", 0.25, 0.1, 1, "s", "estimator: time constant of the predicted velocity"),
@@ -75,7 +75,7 @@ class EstimatorConfig:
     tau_position: float
     tau_velocity: float
     reset_after_us: int = 5_000_000
-    predict_us: int = 8_000
+    predict_us: int = 12_000
     drag: float = 0.0
 
 

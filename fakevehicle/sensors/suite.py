@@ -30,6 +30,16 @@ from fakevehicle.vocabulary import (
 
 GPS_TICKS, BARO_TICKS, RANGE_TICKS, OBSTACLE_TICKS = 25, 10, 12, 25
 """Ticks between samples: GPS 10 Hz, barometer and magnetometer 25, rangefinder 21, obstacle sensor 10."""
+_CYCLE = math.lcm(GPS_TICKS, BARO_TICKS, RANGE_TICKS, OBSTACLE_TICKS)
+_GPS_DUE, _BARO_DUE, _RANGE_DUE, _OBSTACLE_DUE = 1, 2, 4, 8
+_DUE = tuple(
+    _GPS_DUE * (n % GPS_TICKS == 0)
+    + _BARO_DUE * (n % BARO_TICKS == 3)
+    + _RANGE_DUE * (n % RANGE_TICKS == 5)
+    + _OBSTACLE_DUE * (n % OBSTACLE_TICKS == 11)
+    for n in range(_CYCLE)
+)
+"""Which sensors are due in a tick, spread so that few share one; then all begins anew."""
 CHILDREN = 5
 """Generators a suite draws from: GPS, barometer, magnetometer, rangefinder, obstacle sensor."""
 
@@ -151,16 +161,18 @@ class Sensors:
         x : (17,) truth, see `physics.dynamics`.
         arrived : takes what came out of a sensor, in order.
         """
-        if n % GPS_TICKS == 0:
-            self._gps.measure(now_us, x[0:3], x[3:6])
-            if self._gps.silent and self.gps is not None and self.gps.fix_type != 0:
-                self.gps = replace(self.gps, now_us=now_us, fix_type=0, satellites=0)
-        if n % BARO_TICKS == 3:
-            self._look_at_pressure_and_field(now_us, x, arrived)
-        if n % RANGE_TICKS == 5 and self._range.maximum > 0.0:
-            self.range = self._range.measure(now_us, x[0:3], x[6:10]) or self.range
-        if self._obstacles is not None and n % OBSTACLE_TICKS == 11:
-            self.obstacles = self._obstacles.measure(now_us, x[0:3], x[6:10]) or self.obstacles
+        due = _DUE[n % _CYCLE]
+        if due:
+            if due & _GPS_DUE:
+                self._gps.measure(now_us, x[0:3], x[3:6])
+                if self._gps.silent and self.gps is not None and self.gps.fix_type != 0:
+                    self.gps = replace(self.gps, now_us=now_us, fix_type=0, satellites=0)
+            if due & _BARO_DUE:
+                self._look_at_pressure_and_field(now_us, x, arrived)
+            if due & _RANGE_DUE and self._range.maximum > 0.0:
+                self.range = self._range.measure(now_us, x[0:3], x[6:10]) or self.range
+            if due & _OBSTACLE_DUE and self._obstacles is not None:
+                self.obstacles = self._obstacles.measure(now_us, x[0:3], x[6:10]) or self.obstacles
         fix = self._gps.arrived(now_us)
         if fix is not None:
             self.gps = fix

@@ -159,8 +159,6 @@ class Ftp(Service):
         """Send the next packets of the bursts, in turns."""
         if not self._sessions:
             return
-        if not self._sessions:
-            return
         running = [(key, held) for key, held in self._sessions.items() if held.burst is not None]
         budget = PACKETS_PER_TICK
         while running and budget > 0:

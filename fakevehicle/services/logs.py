@@ -101,8 +101,6 @@ class Logs(Service):
 
     def step(self, now_us: int) -> None:
         """Send the next entries and data, every client in its turn."""
-        if not self._listings and not self._downloads:
-            return
         if not (self._listings or self._downloads):
             return
         for sender, listing in list(self._listings.items()):

@@ -41,6 +41,7 @@ class Streams(Service):
         self._rates = {link.name: rates(link.profile) for link in links}
         self._intervals_us: dict[str, dict[int, int]] = {}
         self._queues: dict[str, list[tuple[int, int]]] = {}  # heaps of (due_us, message id)
+        self._next_us = 0  # when the first of all is due
         for link in links:
             intervals = {number: round(1e6 / rate) for number, rate in self._rates[link.name].items()}
             self._intervals_us[link.name] = intervals
@@ -77,11 +78,14 @@ class Streams(Service):
         else:
             self._intervals_us[link][message_id] = min(max(interval_us, SHORTEST_US), LONGEST_US)
             queue.append((now_us, message_id))
+            self._next_us = now_us
         heapify(queue)
         return True
 
     def step(self, now_us: int) -> None:
         """Send what is due."""
+        if now_us < self._next_us:
+            return
         for link, queue in self._queues.items():
             intervals_us = self._intervals_us[link]
             while queue and queue[0][0] <= now_us:
@@ -93,3 +97,4 @@ class Streams(Service):
                 interval_us = intervals_us[number]
                 due_us += interval_us
                 heappush(queue, (due_us if due_us > now_us else now_us + interval_us, number))
+        self._next_us = min((queue[0][0] for queue in self._queues.values() if queue), default=now_us)
