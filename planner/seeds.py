@@ -10,7 +10,8 @@ soft modes of the stretch.
 import numpy as np
 
 from planner.bspline import FloatArray
-from planner.cost import FIXED, IntArray
+from planner.cost import FIXED
+from planner.nearby import IntArray
 from planner.query import Query
 
 SIDE = 6

@@ -17,10 +17,11 @@ import numpy as np
 from planner import errors
 from planner.bspline import DEGREE, FloatArray, bezier_pieces, clamped_knots
 from planner.certificate import certify, end_needed, needed
-from planner.cost import FIXED, SAMPLES, Grid, IntArray, SplineCost, build_grid
+from planner.cost import FIXED, SAMPLES, SplineCost
 from planner.descent import polish, search
 from planner.enclosure import PITCHES, apart
 from planner.guide import Guide, Guides, guide
+from planner.nearby import Grid, IntArray, build_grid
 from planner.query import Query
 from planner.search.asktell import POPULATION
 from planner.search.haoaroa import Haoaroa

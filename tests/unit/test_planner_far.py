@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from planner import Box, Cylinder, Limits, NoPathFound, Prism, Sphere, VoxelGrid, World, plan
-from planner.cost import MOST_CELLS, SplineCost, build_grid
+from planner.cost import SplineCost
 from planner.enclosure import PITCHES, apart
 from planner.guide import Guides, guide
+from planner.nearby import MOST_CELLS, build_grid
 from planner.surroundings import places
 
 LIMITS, RADIUS = Limits(3.0, 6.0, 60.0), 0.3

@@ -9,8 +9,9 @@ import pytest
 from planner import Box, Limits, Prism, StartInCollision, World, plan
 from planner.bspline import clamped_knots, evaluate
 from planner.certificate import certify
-from planner.cost import SplineCost, build_grid
+from planner.cost import SplineCost
 from planner.distance import NOTCHED, PRISM
+from planner.nearby import build_grid
 
 WALLS = ((-10.0, -10.0, -10.0), (10.0, 10.0, 10.0))
 LIMITS = Limits(3.0, 6.0, 60.0)
