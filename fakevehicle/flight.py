@@ -45,6 +45,7 @@ from fakevehicle.vocabulary import (
     RangeSample,
     Setpoint,
     Truth,
+    Wind,
 )
 
 BATTERY_US = 100_000
@@ -263,6 +264,11 @@ class FlightStack:
     def origin(self) -> Geodetic | None:
         """Where the estimator's frame begins; None until it knows."""
         return self._estimator.origin
+
+    @property
+    def wind(self) -> Wind | None:
+        """The wind as the estimator knows it; None before it does."""
+        return self._estimator.wind
 
     @property
     def truth(self) -> Truth:

@@ -113,6 +113,15 @@ class Estimate:
     silent: frozenset[str] = frozenset()  # of "gps", "baro", "mag", "imu": not heard, or not believed, lately
 
 
+class Wind(NamedTuple):
+    """The mean horizontal wind as the estimator knows it."""
+
+    north: float  # [m/s], where the air moves to
+    east: float
+    scatter: float  # 1 sigma of single words about the mean, gusts and sensors' noise together [m/s]
+    sigma: float  # of the mean [m/s]
+
+
 @dataclass(frozen=True, slots=True)
 class Truth:
     """What the physics knows; for recordings and tests, never for the loops. Position is from home."""

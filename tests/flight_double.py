@@ -44,6 +44,7 @@ class PointMass:
         self.faults: list[Fault] = []
         self.range = None
         self.obstacles = None
+        self.wind = None
 
     def inject(self, fault: Fault) -> None:
         self.faults.append(fault)

@@ -39,7 +39,7 @@ from fakevehicle.estimator.settings import EstimatorConfig
 from fakevehicle.estimator.strapdown import dip_and_strength, shift_output
 from fakevehicle.estimator.wind import WindWatch
 from fakevehicle.geodesy import to_local
-from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, MagSample, Resets
+from fakevehicle.vocabulary import BaroSample, Estimate, FloatArray, Geodetic, GpsSample, MagSample, Resets, Wind
 
 MOST_WAITING = 64
 """Samples that may wait for the horizon; the oldest goes first."""
@@ -388,6 +388,14 @@ class Estimator:
         age = (now_us - self._zero_us) * 1e-6
         drifted = config.baro_drift**2 * -math.expm1(-2.0 * age / config.baro_drift_time)
         return config.baro**2 / self._zero_samples + drifted
+
+    @property
+    def wind(self) -> Wind | None:
+        """The mean wind as it is known; None before it is."""
+        if self.filter is None or self._config.drag == 0.0:
+            return None
+        bias = self.filter.P[12, 12] + self.filter.P[13, 13]
+        return self._wind.told(math.sqrt(max(float(bias), 0.0)) / self._config.drag)
 
     def validity(self, now_us: int) -> Validity:
         """Which quantities can be relied on now; cheap enough for every look."""

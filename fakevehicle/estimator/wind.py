@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from fakevehicle.estimator.strapdown import matrix
-from fakevehicle.vocabulary import FloatArray
+from fakevehicle.vocabulary import FloatArray, Wind
 
 SHARE, PERIOD_S = 0.003, 0.1
 """Of a new word in the average, and the spacing of words: a memory of 33 s, which is worth a mean over twice that."""
@@ -29,6 +29,8 @@ CORRELATION = 10.0
 """Neighbouring airspeeds, 0.2 s apart, share a gust of about 2 s: each is worth a tenth."""
 FLOOR = 0.2
 """The airspeed is never trusted better than this [m/s]."""
+MODEL = 0.3
+"""Share of the wind by which it may be wrong: k leaves out the body's drag, which grows with the airspeed's square."""
 
 
 class WindWatch:
@@ -51,9 +53,25 @@ class WindWatch:
 
     def sigma(self, n: int) -> float:
         """1 sigma [m/s] for `measurements.drag`, of the n-th since GPS was lost; five come a second."""
+        return math.sqrt(CORRELATION * (self._variance + FLOOR**2) + n * self._stays())
+
+    def told(self, offset: float) -> Wind | None:
+        """The mean, for those who ask; None before it is known.
+
+        Parameters
+        ----------
+        offset : 1 sigma of the airspeed by the accelerometer's bias, which the scatter does not show [m/s].
+        """
+        if not self.known:
+            return None
+        north, east, _ = self.wind_n.tolist()
+        sigma = math.hypot(FLOOR, offset, MODEL * math.hypot(north, east), math.sqrt(self._stays()))
+        return Wind(north, east, math.sqrt(self._variance), sigma)
+
+    def _stays(self) -> float:
+        """Variance of the mean [m^2/s^2]."""
         averaged_s = PERIOD_S * min(self._words - SKIP, 2.0 / SHARE)
-        stays = self._variance * min(1.0, 2.0 * GUST_S / averaged_s)
-        return math.sqrt(CORRELATION * (self._variance + FLOOR**2) + n * stays)
+        return self._variance * min(1.0, 2.0 * GUST_S / averaged_s)
 
     def note(self, nominal: FloatArray, felt_b: FloatArray, k: float) -> None:
         """Take in what one fix and the specific force (b, bias removed) say; parameters as in `measurements.drag`."""

@@ -1,7 +1,8 @@
 """What few clients ask for, on request: the IMU in whole numbers, the barometer, the motors' commands.
 
 SCALED_IMU and RAW_IMU hold the same here, in milli-g, milliradians a second and milligauss, as ArduPilot's do. PX4
-sends none of the four by itself; a client sets their interval (MAVSDK: `set_rate_scaled_imu` and its like).
+sends only SCALED_PRESSURE by itself; for the rest a client sets the interval (MAVSDK: `set_rate_scaled_imu` and the
+like).
 """
 
 from fakevehicle.codec import Message
@@ -12,10 +13,11 @@ from wire.dialect import mavlink
 
 _MILLI_G = 9.80665e-3
 _OUTPUTS = 32
+_ATTITUDE_GROUP = 0
 
 
 class Raw(Service):
-    """Builders of the four messages.
+    """Builders of the five messages.
 
     Parameters
     ----------
@@ -33,6 +35,7 @@ class Raw(Service):
             mavlink.MAVLINK_MSG_ID_SCALED_IMU: self.scaled_imu,
             mavlink.MAVLINK_MSG_ID_RAW_IMU: self.raw_imu,
             mavlink.MAVLINK_MSG_ID_SCALED_PRESSURE: self.scaled_pressure,
+            mavlink.MAVLINK_MSG_ID_ACTUATOR_CONTROL_TARGET: self.actuator_control_target,
             mavlink.MAVLINK_MSG_ID_ACTUATOR_OUTPUT_STATUS: self.actuator_output_status,
         }
 
@@ -49,6 +52,24 @@ class Raw(Service):
         baro, now_us = self._stack.baro, self._stack.imu.now_us
         return mavlink.MAVLink_scaled_pressure_message(
             now_us // 1000 & 0xFFFFFFFF, baro.pressure / 100.0, 0.0, _int16(baro.temperature * 100.0)
+        )
+
+    def actuator_control_target(self) -> Message:
+        """Roll, pitch, yaw and thrust as shares of the most that is possible of each; 0 while disarmed.
+
+        It is what the commands to the motors come to (after the mixer, thrust as the square of speed), and PX4 sends it
+        no more since it allocates control itself.
+        """
+        speeds = self._stack.control.motor.tolist() if self._supervisor.armed else [0.0] * 4
+        front_right, rear_left, front_left, rear_right = (speed * speed for speed in speeds)
+        controls = (
+            0.5 * (rear_left + front_left - front_right - rear_right),
+            0.5 * (front_right + front_left - rear_left - rear_right),
+            0.5 * (front_right + rear_left - front_left - rear_right),  # these two turn anticlockwise from above
+            0.25 * (front_right + rear_left + front_left + rear_right),
+        )
+        return mavlink.MAVLink_actuator_control_target_message(
+            self._stack.imu.now_us, _ATTITUDE_GROUP, [*controls, 0.0, 0.0, 0.0, 0.0]
         )
 
     def actuator_output_status(self) -> Message:

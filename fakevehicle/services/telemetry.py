@@ -2,9 +2,9 @@
 
 Only HIL_STATE_QUATERNION shows the simulator's truth. A builder gives None while it has nothing true to say: no
 attitude before the alignment, no position before the fix. Numbers that MAVLink packs into small integers are clipped
-to what fits. What this vehicle does not have (a wind estimate, a rangefinder) it does not send.
+to what fits. What this vehicle does not have or know yet (a rangefinder, the wind) it does not send.
 
-The file is long since it is a list: 23 messages, each read against its definition on one screen.
+The file is long since it is a list: 24 messages, each read against its definition on one screen.
 """
 
 import math
@@ -60,7 +60,8 @@ _GLOBAL_POSITION_INT = Layout(mavlink.MAVLink_global_position_int_message)
 _HIGHRES_IMU = Layout(mavlink.MAVLink_highres_imu_message)
 _ODOMETRY = Layout(mavlink.MAVLink_odometry_message)
 _HIL_STATE_QUATERNION = Layout(mavlink.MAVLink_hil_state_quaternion_message)
-"""What goes out thirty times a second and more."""
+_WIND_COV = Layout(mavlink.MAVLink_wind_cov_message)
+"""What goes out ten times a second and more."""
 
 RANGE_US = 500_000
 """Height above ground is known for this long after the rangefinder's last word [us]."""
@@ -112,6 +113,7 @@ class Telemetry(Service):
             m.MAVLINK_MSG_ID_SERVO_OUTPUT_RAW: self.servo_output_raw,
             m.MAVLINK_MSG_ID_BATTERY_STATUS: self.battery_status,
             m.MAVLINK_MSG_ID_ESTIMATOR_STATUS: self.estimator_status,
+            m.MAVLINK_MSG_ID_WIND_COV: self.wind_cov,
             m.MAVLINK_MSG_ID_HIL_STATE_QUATERNION: self.hil_state_quaternion,
         }
 
@@ -423,6 +425,14 @@ class Telemetry(Service):
             math.sqrt(max(north + east, 0.0)),
             math.sqrt(max(down, 0.0)),
         )
+
+    def wind_cov(self) -> Message | None:
+        """The mean wind over ground as the estimator last knew it; its vertical part is not estimated."""
+        wind, origin = self._stack.wind, self._stack.origin
+        if wind is None or origin is None:
+            return None
+        height = origin.altitude - self._stack.glance.z
+        return _WIND_COV(self.now_us, wind.north, wind.east, NAN, wind.scatter, NAN, height, wind.sigma, NAN)
 
     def hil_state_quaternion(self) -> Message:
         """The simulator's truth. Acceleration is kinematic, turned into the body frame [mG]; no air speed is given."""
