@@ -1,13 +1,16 @@
-"""The way that an automatic mode flies: from rest to rest, one leg after another, with the nose turned at a set rate.
+"""The way that an automatic mode flies: legs from rest to rest, or joined by corners, the nose turned at a set rate.
 
 A `Course` is where the vehicle is meant to be now; modes and missions say where it goes next. It stays where it is when
 the estimate jumps: the loops take the jump for what it is and fly back to the course gently.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from fakevehicle.circle import Circle, circle
+from fakevehicle.corner import Corner, rounded
 from fakevehicle.guidance import Leg, descent, landing_speed, still, stopping_point
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
@@ -23,6 +26,10 @@ PARAMETERS: tuple[Parameter, ...] = (
 )
 SLOWEST = 0.1
 """Lowest speed that may be asked for [m/s]."""
+TOO_NEAR = 0.3
+"""Nearer than this over ground [m] nothing can be pointed at."""
+LONGEST_TICK = 0.02
+"""The nose follows what it points at in steps of at most this [s], however long nobody asked."""
 
 
 class Course:
@@ -32,13 +39,16 @@ class Course:
     ----------
     anchor_n : (3,) where the newest leg ends, or where it stays [m].
     cruise : speed over ground that somebody asked for [m/s]; None: MPC_XY_CRUISE.
+    looks_at : (3,) what the nose points at, wherever it flies [m]; None: where it is turned to.
     """
 
     def __init__(self, parameters: ParameterSet) -> None:
         self._parameters = parameters
         self.anchor_n: FloatArray = np.zeros(3)
         self.cruise: float | None = None
-        self._leg: Leg | None = None
+        self.looks_at: FloatArray | None = None
+        self._nose_us = 0  # when it last followed that
+        self._way: tuple[Leg | Corner | Circle, ...] = ()  # what is flown now, and what comes after it
         self._yaw_from = self._yaw_by = 0.0
         self._turn_us = 0
         self._still: Setpoint | None = None
@@ -48,20 +58,53 @@ class Course:
         p = self._parameters
         position_n, velocity_n = np.array([glance.x, glance.y, glance.z]), np.array([glance.vx, glance.vy, glance.vz])
         self.anchor_n = stopping_point(position_n, velocity_n, p["MPC_ACC_HOR"]) if moving else position_n
-        self._leg = self._still = None
+        self._way, self._still = (), None
         self._yaw_from, self._yaw_by = glance.yaw, 0.0
 
     def leg_to(self, now_us: int, end_n: FloatArray, speed: float | None = None) -> None:
         """Go on to a point, (3,) [m]: within `speed`, or the cruise speed and the climb and sink rates."""
-        p = self._parameters
         if speed is None:
-            rise = float(self.anchor_n[2] - end_n[2])
-            vertical = p["MPC_Z_V_AUTO_UP"] if rise > 0.0 else p["MPC_Z_V_AUTO_DN"]
-            speed = float(p["MPC_XY_CRUISE"]) if self.cruise is None else self.cruise
-            if rise:
-                speed = min(speed, vertical * math.dist(self.anchor_n, end_n) / abs(rise))
-        self._leg = Leg(now_us, self.anchor_n, end_n, max(speed, SLOWEST), p["MPC_ACC_HOR"])
-        self._still, self.anchor_n = None, end_n
+            speed = self.speed_to(self.anchor_n, end_n, self.cruise)
+        leg = Leg(now_us, self.anchor_n, end_n, max(speed, SLOWEST), self._parameters["MPC_ACC_HOR"])
+        self._way, self._still, self.anchor_n = (leg,), None, end_n
+
+    def round_to(self, now_us: int, next_n: FloatArray, cruise: float | None, cut: float) -> Corner | None:
+        """Do not stop at the end of the newest leg but go on to a point, (3,) [m], as `cruise` allows.
+
+        The corner passes within `cut` [m] of where the leg was to end. None when there is no room for one: then the
+        leg ends at rest as it was to.
+        """
+        leg = self._way[-1] if self._way else None
+        if not isinstance(leg, Leg) or self.late_s(now_us) >= 0.0:
+            return None
+        speed = max(self.speed_to(self.anchor_n, next_n, cruise), SLOWEST)
+        found = rounded(leg, now_us, next_n, speed, cut)
+        if found is None:
+            return None
+        pieces, corner = found
+        self._way, self.anchor_n = (*self._way[:-1], *pieces), next_n
+        return corner
+
+    def turn_about(self, now_us: int, centre_n: FloatArray, turns: float, clockwise: bool) -> None:
+        """Fly circles about a place, (3,) [m], from the anchor, back to rest: at the cruise speed, if it can."""
+        p = self._parameters
+        speed = max(float(p["MPC_XY_CRUISE"]) if self.cruise is None else self.cruise, SLOWEST)
+        most = float(p["MPC_ACC_HOR"])
+        way = circle(now_us, self.anchor_n, centre_n, turns, clockwise=clockwise, speed=speed, most=most)
+        end_us = now_us + math.ceil(1e6 * way.duration_s)
+        self._way, self._still, self.anchor_n = (way,), None, way.setpoint(end_us, 0.0).position_n
+
+    def look_at(self, place_n: FloatArray | None) -> None:
+        """Point the nose at a place, (3,) [m], from now on; None: no longer."""
+        self.looks_at, self._still = place_n, None
+
+    def speed_to(self, start_n: FloatArray, end_n: FloatArray, cruise: float | None) -> float:
+        """Speed of a leg [m/s] at which neither the cruise speed nor the climb and sink rates are exceeded."""
+        p = self._parameters
+        rise = float(start_n[2] - end_n[2])
+        vertical = p["MPC_Z_V_AUTO_UP"] if rise > 0.0 else p["MPC_Z_V_AUTO_DN"]
+        speed = float(p["MPC_XY_CRUISE"]) if cruise is None else cruise
+        return min(speed, vertical * math.dist(start_n, end_n) / abs(rise)) if rise else speed
 
     def turn_to(self, now_us: int, yaw: float) -> None:
         """Point the nose [rad] by the shorter way, as fast as MPC_YAWRAUTO_MAX lets it."""
@@ -81,21 +124,39 @@ class Course:
 
     def late_s(self, now_us: int) -> float:
         """How long ago the newest leg should have ended [s]; below 0 while it is flown."""
-        leg = self._leg
-        return math.inf if leg is None else (now_us - leg.start_us) * 1e-6 - leg.duration_s
+        if not self._way:
+            return math.inf
+        last = self._way[-1]
+        return (now_us - last.start_us) * 1e-6 - last.duration_s
 
     def setpoint(self, now_us: int) -> Setpoint:
         """Where to be now; the same object again and again while nothing changes."""
         if self._still is not None:
             return self._still
         yaw = self.yaw(now_us)
-        leg = self._leg
-        if leg is not None and self.late_s(now_us) < 0.0:
-            return leg.setpoint(now_us, yaw)
-        rest = still(self.anchor_n, yaw)
-        if self._yaw_by == 0.0:
-            self._still = rest
-        return rest
+        if self._way and self.late_s(now_us) < 0.0:
+            while len(self._way) > 1 and now_us >= self._way[1].start_us:
+                self._way = self._way[1:]
+            flown = self._way[0].setpoint(now_us, yaw)
+        else:
+            flown = still(self.anchor_n, yaw)
+            if self._yaw_by == 0.0 and self.looks_at is None:
+                self._still = flown
+        return flown if self.looks_at is None else self._looking(now_us, flown)
+
+    def _looking(self, now_us: int, flown: Setpoint) -> Setpoint:
+        """The same, with the nose on its way to what it is to point at, at most at MPC_YAWRAUTO_MAX."""
+        assert self.looks_at is not None
+        north, east = (self.looks_at - flown.position_n)[:2].tolist()
+        since_s = min((now_us - self._nose_us) * 1e-6, LONGEST_TICK)
+        self._nose_us = now_us
+        yaw = self.yaw(now_us)
+        if math.hypot(north, east) < TOO_NEAR or since_s <= 0.0:
+            return flown
+        most = math.radians(self._parameters["MPC_YAWRAUTO_MAX"]) * since_s
+        turned = min(max(math.remainder(math.atan2(east, north) - yaw, 2.0 * math.pi), -most), most)
+        self._yaw_from, self._yaw_by = math.remainder(yaw + turned, 2.0 * math.pi), 0.0
+        return replace(flown, yaw=self._yaw_from, yaw_rate=turned / since_s)
 
     def descend(self, now_us: int, glance: Glance, ground_z: float) -> Setpoint:
         """Sink to the ground, at down coordinate `ground_z` [m], below the anchor.

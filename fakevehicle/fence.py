@@ -9,11 +9,11 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from fakevehicle.mission_runner import target_of
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
 from fakevehicle.plans import CIRCLES, PlanItem, PlanStore
 from fakevehicle.vocabulary import FloatArray, Geodetic
+from fakevehicle.waypoints import extent_of
 from wire.dialect import mavlink
 
 _m = mavlink
@@ -109,8 +109,8 @@ class FenceMonitor:
         key = (self._store.version, self._parameters.version, self.enabled, *home_n.tolist())
         if key != self._mission_key:
             self._mission_key = key
-            points = (target_of(item, self._places, float(home_n[2]), home_n) for item in self._store.mission)
-            self._mission_leaves = any(p is not None and self.breach_at(p, home_n) is not None for p in points)
+            points = (point for item in self._store.mission for point in extent_of(item, self._places, home_n))
+            self._mission_leaves = any(self.breach_at(point, home_n) is not None for point in points)
         return self._mission_leaves
 
     def _local_zones(self) -> tuple[_Zone, ...]:

@@ -1,11 +1,11 @@
 """Where each mode wants to fly: legs and setpoints, in the estimator's local NED frame.
 
-A `Leg` is a straight line flown from rest to rest with a trapezoidal speed profile, in closed form: at time tau after
-its start, with distance d, acceleration a and speed v = min(v_max, sqrt(a d)),
+A `Leg` is a straight line flown with a trapezoidal speed profile, in closed form: at time tau after its start, with
+distance d, acceleration a, speeds v0 and v1 at its ends and v = min(v_max, sqrt(a d + (v0^2 + v1^2) / 2)) between,
 
-    s = a tau^2 / 2                        while speeding up,      t1 = v/a
-    s = v tau - v^2 / (2a)                 at constant speed,      until t2 = d/v
-    s = d - a (t2 + t1 - tau)^2 / 2        while slowing down,     until t2 + t1
+    s = v0 tau + a tau^2 / 2               while speeding up,      t1 = (v - v0)/a
+    s = v tau - (v - v0) t1 / 2            at constant speed,      until t2 = d/v + (v0^2 + v1^2 - 2 v0 v) / (2 a v)
+    s = d - v1 rest - a rest^2 / 2         while slowing down,     rest = t2 + (v - v1)/a - tau
 """
 
 import math
@@ -21,7 +21,7 @@ _NO_RATE, _NO_ATTITUDE = unused(), unused_attitude()
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """A straight line from rest to rest.
+    """A straight line, from rest to rest unless it says otherwise.
 
     Attributes
     ----------
@@ -29,9 +29,11 @@ class Leg:
     start_n, end_n : (3,) local NED [m].
     speed : highest speed [m/s], > 0.
     acceleration : [m/s^2], > 0.
+    entry, leave : speeds at the ends [m/s], at most `speed`, and apart by no more than the length allows.
     length : distance between the ends [m].
     top : highest speed that is reached [m/s].
-    duration_s : time from rest to rest [s].
+    level_s : when it begins to slow down [s] after its start.
+    duration_s : time from end to end [s].
     direction_n : (3,) of unit length, from start to end; zero for a leg of no length.
     """
 
@@ -40,38 +42,50 @@ class Leg:
     end_n: FloatArray
     speed: float
     acceleration: float
+    entry: float = 0.0
+    leave: float = 0.0
 
     length: float = field(init=False)
     top: float = field(init=False)
+    level_s: float = field(init=False)
     duration_s: float = field(init=False)
     direction_n: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
         length = math.dist(self.start_n, self.end_n)
-        top = min(self.speed, math.sqrt(self.acceleration * length))
+        a, v0, v1 = self.acceleration, self.entry, self.leave
+        top = max(min(self.speed, math.sqrt(a * length + 0.5 * (v0 * v0 + v1 * v1))), v0, v1)
         put = partial(object.__setattr__, self)  # once, here: a setpoint is made of them at every tick
         put("length", length)
         put("top", top)
-        put("duration_s", length / top + top / self.acceleration if length else 0.0)
+        put("level_s", length / top + (v0 * v0 + v1 * v1 - 2.0 * v0 * top) / (2.0 * a * top) if length else 0.0)
+        put("duration_s", self.level_s + (top - v1) / a if length else 0.0)
         put("direction_n", (self.end_n - self.start_n) / length if length else np.zeros(3))
 
     def setpoint(self, now_us: int, yaw: float) -> Setpoint:
         """Position, velocity and acceleration at `now_us`, at the nearer end outside the leg's time."""
-        length, a, top = self.length, self.acceleration, self.top
         tau = (now_us - self.start_us) * 1e-6
-        if tau >= self.duration_s or not length:
+        if not self.length or (tau >= self.duration_s and not self.leave):
             return still(self.end_n, yaw)
-        tau = max(tau, 0.0)
-        t1, t2 = top / a, length / top
-        if tau < t1:
-            s, ds, dds = 0.5 * a * tau * tau, a * tau, a
-        elif tau < t2:
-            s, ds, dds = top * tau - 0.5 * top * t1, top, 0.0
-        else:
-            rest = t1 + t2 - tau
-            s, ds, dds = length - 0.5 * a * rest * rest, a * rest, -a
+        s, ds, dds = self._along(min(max(tau, 0.0), self.duration_s))
         e = self.direction_n
         return Setpoint(self.start_n + s * e, ds * e, dds * e, yaw, math.nan, _NO_ATTITUDE, _NO_RATE)
+
+    def at(self, now_us: int) -> tuple[float, float, float]:
+        """Way from the start [m], speed [m/s] and acceleration along it [m/s^2] at `now_us`."""
+        tau = min(max((now_us - self.start_us) * 1e-6, 0.0), self.duration_s)
+        return self._along(tau) if self.length else (0.0, 0.0, 0.0)
+
+    def _along(self, tau: float) -> tuple[float, float, float]:
+        """Way, speed and acceleration `tau` [s] after the start."""
+        a, top = self.acceleration, self.top
+        t1 = (top - self.entry) / a
+        if tau < t1:
+            return self.entry * tau + 0.5 * a * tau * tau, self.entry + a * tau, a
+        if tau < self.level_s:
+            return top * tau - 0.5 * (top - self.entry) * t1, top, 0.0
+        rest = self.duration_s - tau
+        return self.length - self.leave * rest - 0.5 * a * rest * rest, self.leave + a * rest, -a
 
 
 def still(position_n: FloatArray, yaw: float) -> Setpoint:

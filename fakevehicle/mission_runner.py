@@ -1,8 +1,13 @@
 """Flies the stored mission, item by item.
 
-Each item goes through the phases CLIMB (only from the ground), TRAVEL, STAY and, for a landing, SINK; commands that are
-no places (speed, turn, jump) are done at once, one a tick. Every leg ends at rest: PX4 would round the corners. The
-first place of a vehicle that stands is reached by climbing to MIS_TAKEOFF_ALT first, if the mission has no takeoff.
+Each item goes through the phases CLIMB (only from the ground), TRAVEL, then TURN for turns, STAY, and SINK for a
+landing; commands that are no places (speed, turn, jump, what to look at) are done at once, one a tick. The first place
+of a vehicle that stands is reached by climbing to MIS_TAKEOFF_ALT first, if the mission has no takeoff.
+
+A waypoint that does not say how long to stay is passed: where the next place is known, the way there is rounded off
+within CUT of the radius in which it counts as reached (`corner`), and it counts once the vehicle itself has been within
+that radius. One that was missed, since wind or a weak motor kept the vehicle away, is flown back to and stopped at. Any
+other leg ends at rest.
 
 A mission that is left (Hold, or anything else) goes on at the item where it was, and one that is finished begins anew.
 """
@@ -10,12 +15,16 @@ A mission that is left (Hold, or anything else) goes on at the item where it was
 import math
 from enum import Enum
 
+import numpy as np
+
+from fakevehicle.corner import Corner
 from fakevehicle.course import Course
 from fakevehicle.modes import Event
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
-from fakevehicle.plans import RELATIVE_FRAMES, PlanItem, PlanStore
-from fakevehicle.vocabulary import FloatArray, Geodetic, Glance, Setpoint
+from fakevehicle.plans import COMMANDS, Kind, PlanItem, PlanStore
+from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
+from fakevehicle.waypoints import PLACES, STOPS, aim_of, cruise_after, index_after, stay_s, target_of, turn_radius
 from wire.dialect import mavlink
 
 _m = mavlink
@@ -26,6 +35,14 @@ CLIMBED = 0.5
 """How near a takeoff's top counts as reached [m]."""
 CLIMB_PATIENCE_S = 3.0
 """A climb that ends this long after its time, wherever it got to."""
+CUT = 0.6
+"""Share of a waypoint's radius that the way may cut off; the rest is for the vehicle, which follows it."""
+LEAST_RADIUS = 0.3
+"""A waypoint that has to be reached nearer than this [m] is stopped at."""
+MISSED_US = 1_000_000
+"""How long after its corner a waypoint may still be reached [us]."""
+FAR_AHEAD = 32
+"""Items looked at for the next place."""
 LONGEST_TURN_LEG = 1.0
 """A leg shorter than this over ground [m] does not turn the nose."""
 
@@ -46,26 +63,7 @@ class _Phase(Enum):
     TRAVEL = 2
     STAY = 3
     SINK = 4
-
-
-def target_of(item: PlanItem, places: Places, home_z: float, here_n: FloatArray) -> FloatArray | None:
-    """The point an item names, (3,) local NED [m]; what it leaves open stays as it is in `here_n`.
-
-    None before the first fix, which gives local coordinates their meaning.
-    """
-    origin = places.origin
-    if origin is None:
-        return None
-    target_n = here_n.copy()
-    latitude, longitude, altitude = item.params[4:]
-    if item.has_place:
-        place = places.local(Geodetic(math.radians(latitude), math.radians(longitude), origin.altitude))
-        if place is None:
-            return None
-        target_n[:2] = place[:2]
-    if not math.isnan(altitude):
-        target_n[2] = (home_z if item.frame in RELATIVE_FRAMES else origin.altitude) - altitude
-    return target_n
+    TURN = 5
 
 
 class MissionRunner:
@@ -73,6 +71,7 @@ class MissionRunner:
 
     Attributes
     ----------
+    notes : texts for people since somebody last emptied the list.
     current : index of the item that is flown or comes next; as many as there are items when it is complete.
     reached : the newest item that was reached, None before the first; `reached_count` counts them.
     """
@@ -89,6 +88,13 @@ class MissionRunner:
         self._phase = _Phase.START
         self._stay_until_us = 0
         self._jumps: dict[int, int] = {}
+        self._place_n: FloatArray = np.zeros(3)  # of the item that is flown, or was last
+        self._corner: Corner | None = None  # by which it is passed
+        self._passing = False  # the item before was passed: its corner leads to this one
+        self._missed = -1  # the item that was to be passed and was not reached
+        self._looks_at: FloatArray | None = None
+        self._lacking: set[str] = set()  # what people have been told of
+        self.notes: list[str] = []
         self.reached: int | None = None
         self.reached_count = 0
 
@@ -126,8 +132,9 @@ class MissionRunner:
         if self._index >= len(self._store.mission):
             self.set_current(0)
         self._active = True
-        self._interrupted = False
-        self._phase, self._stay_until_us = _Phase.START, 0
+        self._interrupted = self._passing = False
+        self._phase, self._stay_until_us, self._corner = _Phase.START, 0, None
+        self._course.look_at(self._looks_at)
 
     def leave(self) -> None:
         """Another mode is entered."""
@@ -136,7 +143,8 @@ class MissionRunner:
     def set_current(self, index: int) -> None:
         """Go on with another item; jumps count anew."""
         self._index = index
-        self._phase, self._stay_until_us = _Phase.START, 0
+        self._phase, self._stay_until_us, self._corner = _Phase.START, 0, None
+        self._passing, self._missed = False, -1
         self._jumps.clear()
         self._interrupted = self._active
 
@@ -163,13 +171,16 @@ class MissionRunner:
             case _m.MAV_CMD_DO_JUMP:
                 self._jump(item)
             case _m.MAV_CMD_DO_CHANGE_SPEED:
-                if item.params[0] in (0.0, 1.0) and item.params[1] > 0.0:
-                    self._course.cruise = item.params[1]
+                self._course.cruise = cruise_after(item, self._course.cruise)
                 self._done()
+            case _m.MAV_CMD_DO_SET_ROI | _m.MAV_CMD_DO_SET_ROI_LOCATION | _m.MAV_CMD_DO_SET_ROI_NONE:
+                self._look_at(item, home_n)
             case _m.MAV_CMD_CONDITION_YAW:
                 self._turn(now_us, item)
             case _m.MAV_CMD_NAV_DELAY | _m.MAV_CMD_CONDITION_DELAY:
                 self._stay(now_us, max(item.params[0], 0.0))
+            case _ if item.command not in PLACES:
+                self._pass_over(item)
             case _:
                 return self._go(now_us, item, glance, airborne, home_n)
         return self._course.setpoint(now_us) if airborne else None
@@ -177,7 +188,7 @@ class MissionRunner:
     def _go(
         self, now_us: int, item: PlanItem, glance: Glance, airborne: bool, home_n: FloatArray
     ) -> Setpoint | Event | None:
-        """An item with a place: climb, travel, stay, sink."""
+        """An item with a place: climb, travel, turn, stay, sink."""
         course, landing = self._course, item.command == _m.MAV_CMD_NAV_LAND
         if self._phase is _Phase.SINK:
             if airborne:
@@ -186,6 +197,9 @@ class MissionRunner:
             return None
         if self._phase is _Phase.START and not self._set_out(now_us, item, airborne, home_n):
             return course.setpoint(now_us) if airborne else None
+        if self._corner is not None:
+            self._pass(now_us, item, glance, self._corner)
+            return course.setpoint(now_us)
         late_s = course.late_s(now_us)
         away = math.dist((glance.x, glance.y, glance.z), course.anchor_n) if late_s >= 0.0 else math.inf
         if self._phase is _Phase.CLIMB and airborne and late_s >= 0.0 and (away < CLIMBED or late_s > CLIMB_PATIENCE_S):
@@ -193,9 +207,26 @@ class MissionRunner:
         elif self._phase is _Phase.TRAVEL and late_s >= 0.0 and away < self._radius(item):
             self._phase = _Phase.SINK if landing else _Phase.STAY
             self._stay_until_us = 0
+            if item.command == _m.MAV_CMD_NAV_LOITER_TURNS:
+                self._turn_about(now_us, item, home_n)
+        elif self._phase is _Phase.TURN and late_s >= 0.0:
+            course.look_at(self._looks_at)
+            self._done()
         if self._phase is _Phase.STAY:
-            self._stay(now_us, _stay_s(item))
+            self._stay(now_us, stay_s(item))
         return course.setpoint(now_us)
+
+    def _pass(self, now_us: int, item: PlanItem, glance: Glance, corner: Corner) -> None:
+        """Once the corner is behind, the item is done; if the vehicle was not near enough, fly back to it."""
+        if now_us < corner.middle_us:
+            return
+        if math.dist((glance.x, glance.y, glance.z), self._place_n) < self._radius(item):
+            self._done()
+            self._passing = True
+        elif now_us > corner.end_us + MISSED_US:
+            self._missed = self._index
+            self._phase, self._corner = _Phase.START, None
+            self._course.stop(glance, moving=True)
 
     def _set_out(self, now_us: int, item: PlanItem, airborne: bool, home_n: FloatArray) -> bool:
         """Begin an item; False when there is nothing to fly for it."""
@@ -218,19 +249,73 @@ class MissionRunner:
 
     def _travel(self, now_us: int, item: PlanItem, home_n: FloatArray) -> None:
         course = self._course
-        start_n = course.anchor_n
-        target_n = target_of(item, self._places, float(home_n[2]), start_n)
-        if target_n is None:
-            target_n = start_n
-        if item.command == _m.MAV_CMD_NAV_LAND:
-            target_n[2] = start_n[2]  # over the place first; its altitude is the ground's
-        course.leg_to(now_us, target_n)
-        north, east = (target_n - start_n)[:2].tolist()
-        if math.isfinite(item.params[3]):
+        came_n = self._place_n if self._passing else course.anchor_n
+        aim_n = aim_of(item, self._places, float(home_n[2]), came_n)
+        if self._passing and not np.array_equal(aim_n, course.anchor_n) and course.late_s(now_us) < 0.0:
+            return  # the plan has changed meanwhile: first come to rest where the way leads
+        if not self._passing or not np.array_equal(aim_n, course.anchor_n):
+            course.leg_to(now_us, aim_n)
+        self._passing = False
+        north, east = (aim_n - came_n)[:2].tolist()
+        if item.command != _m.MAV_CMD_NAV_LOITER_TURNS and math.isfinite(item.params[3]):
             course.turn_to(now_us, math.radians(item.params[3]))
         elif math.hypot(north, east) > LONGEST_TURN_LEG:
             course.turn_to(now_us, math.atan2(east, north))
-        self._phase = _Phase.TRAVEL
+        self._place_n, self._phase = aim_n, _Phase.TRAVEL
+        following = self._following() if self._passes(item) else None
+        if following is not None:
+            ahead, cruise = following
+            self._corner = course.round_to(
+                now_us, aim_of(ahead, self._places, float(home_n[2]), aim_n), cruise, CUT * self._radius(item)
+            )
+
+    def _passes(self, item: PlanItem) -> bool:
+        """Whether an item's place is passed without a stop."""
+        waypoint = item.command == _m.MAV_CMD_NAV_WAYPOINT and stay_s(item) == 0.0
+        return waypoint and self._index != self._missed and self._radius(item) >= LEAST_RADIUS
+
+    def _following(self) -> tuple[PlanItem, float | None] | None:
+        """The next item with a place and the cruise speed there; None when something is done at rest before it."""
+        items, index, cruise, jumped = self._store.mission, self._index + 1, self._course.cruise, dict(self._jumps)
+        for _ in range(FAR_AHEAD):
+            if index >= len(items) or items[index].command in STOPS:
+                return None
+            item = items[index]
+            if item.command in PLACES:
+                return item, cruise
+            cruise = cruise_after(item, cruise)
+            index = index_after(item, index, jumped)
+        return None
+
+    def _turn_about(self, now_us: int, item: PlanItem, home_n: FloatArray) -> None:
+        """Begin the turns, the nose to their centre unless there is something else to look at."""
+        centre_n = target_of(item, self._places, float(home_n[2]), self._place_n)
+        turns = item.params[0] if item.params[0] > 0.0 else 0.0
+        if centre_n is None or turns == 0.0:
+            return
+        if not item.has_place:
+            centre_n = self._place_n - (turn_radius(item), 0.0, 0.0)
+        self._course.turn_about(now_us, centre_n, turns, not item.params[2] < 0.0)
+        if self._looks_at is None:
+            self._course.look_at(centre_n)
+        self._phase = _Phase.TURN
+
+    def _look_at(self, item: PlanItem, home_n: FloatArray) -> None:
+        """Point the nose at a place from now on, or no longer."""
+        nothing = item.command == _m.MAV_CMD_DO_SET_ROI_NONE or (
+            item.command == _m.MAV_CMD_DO_SET_ROI and item.params[0] == _m.MAV_ROI_NONE
+        )
+        self._looks_at = None if nothing else target_of(item, self._places, float(home_n[2]), home_n)
+        self._course.look_at(self._looks_at)
+        self._done()
+
+    def _pass_over(self, item: PlanItem) -> None:
+        """What this vehicle has no device for; told once a mission and device."""
+        what = COMMANDS[Kind.MISSION][item.command].lacking
+        if what is not None and what not in self._lacking:
+            self._lacking.add(what)
+            self.notes.append(f"Mission item {self._index} passed over: no {what} here")
+        self._done()
 
     def _radius(self, item: PlanItem) -> float:
         asked = item.params[1] if item.command == _m.MAV_CMD_NAV_WAYPOINT else math.nan
@@ -255,19 +340,14 @@ class MissionRunner:
 
     def _jump(self, item: PlanItem) -> None:
         """Back, as often as it says (-1: always); then on."""
-        here, times = self._index, item.params[1]
-        done = self._jumps.get(here, 0)
-        if times < 0.0 or done < times:
-            self._jumps[here] = done + 1
-            self._note_reached()
-            self._index, self._phase, self._stay_until_us = int(item.params[0]), _Phase.START, 0
-        else:
-            self._done()
+        self._note_reached()
+        self._index = index_after(item, self._index, self._jumps)
+        self._phase, self._stay_until_us = _Phase.START, 0
 
     def _done(self) -> None:
         self._note_reached()
         self._index += 1
-        self._phase, self._stay_until_us = _Phase.START, 0
+        self._phase, self._stay_until_us, self._corner = _Phase.START, 0, None
 
     def _note_reached(self) -> None:
         self.reached = self._index
@@ -279,11 +359,7 @@ class MissionRunner:
             self._plan = self._store.mission
             self.set_current(0)
             self._started, self.reached = False, None
-
-
-def _stay_s(item: PlanItem) -> float:
-    """How long an item stays at its place [s]."""
-    if item.command == _m.MAV_CMD_NAV_LOITER_UNLIM:
-        return math.inf
-    timed = item.command in (_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_CMD_NAV_LOITER_TIME)
-    return item.params[0] if timed and item.params[0] > 0.0 else 0.0
+            self._looks_at = None
+            self._lacking.clear()
+            if self._active:
+                self._course.look_at(None)

@@ -6,12 +6,13 @@ import numpy as np
 
 from fakevehicle.course import Course
 from fakevehicle.guidance import return_height
-from fakevehicle.mission_runner import MissionRunner, target_of
+from fakevehicle.mission_runner import MissionRunner
 from fakevehicle.modes import Event, Mode
 from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
 from fakevehicle.plans import PlanStore
 from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
+from fakevehicle.waypoints import target_of
 
 ARRIVED = 0.3
 """Height error [m] within which a takeoff is done."""
@@ -65,6 +66,7 @@ class Navigator:
         self._mode, self._climbing, self._descending, self._returning_to = mode, False, False, None
         self.runner.leave()
         self.course.cruise = None
+        self.course.look_at(None)
         if glance is not None:
             self.course.stop(glance, airborne)
         if mode is Mode.MISSION:

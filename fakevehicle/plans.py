@@ -9,7 +9,7 @@ import math
 import struct
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from wire.dialect import mavlink
@@ -76,20 +76,50 @@ class CommandKind:
     title : for people.
     place : whether parameters 5, 6 and 7 are a place.
     limits : lowest and highest value by parameter number; NaN stands for not given and is always allowed.
+    lacking : what this vehicle would need for it; None: it does it. Such items are kept, told of and passed over, as
+        PX4 and ArduPilot do without the device.
     """
 
     title: str
     place: bool
     limits: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+    lacking: str | None = None
 
 
 _SECONDS = (0.0, 86_400.0)
 _RADIUS = (0.0, FARTHEST)
+MAX_TURNS = 1000.0
+_LACKING: Mapping[str, tuple[int, ...]] = {
+    "camera": (
+        _m.MAV_CMD_DO_DIGICAM_CONFIGURE,
+        _m.MAV_CMD_DO_DIGICAM_CONTROL,
+        _m.MAV_CMD_DO_SET_CAM_TRIGG_DIST,
+        _m.MAV_CMD_DO_SET_CAM_TRIGG_INTERVAL,
+        _m.MAV_CMD_SET_CAMERA_MODE,
+        _m.MAV_CMD_SET_CAMERA_ZOOM,
+        _m.MAV_CMD_SET_CAMERA_FOCUS,
+        _m.MAV_CMD_IMAGE_START_CAPTURE,
+        _m.MAV_CMD_IMAGE_STOP_CAPTURE,
+        _m.MAV_CMD_DO_TRIGGER_CONTROL,
+        _m.MAV_CMD_VIDEO_START_CAPTURE,
+        _m.MAV_CMD_VIDEO_STOP_CAPTURE,
+    ),
+    "gimbal": (
+        _m.MAV_CMD_DO_MOUNT_CONFIGURE,
+        _m.MAV_CMD_DO_MOUNT_CONTROL,
+        _m.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW,
+        _m.MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE,
+    ),
+    "servo": (_m.MAV_CMD_DO_SET_SERVO, _m.MAV_CMD_DO_REPEAT_SERVO, _m.MAV_CMD_DO_SET_ACTUATOR),
+    "relay": (_m.MAV_CMD_DO_SET_RELAY, _m.MAV_CMD_DO_REPEAT_RELAY),
+    "gripper": (_m.MAV_CMD_DO_GRIPPER,),
+}
 COMMANDS: Mapping[Kind, Mapping[int, CommandKind]] = {
     Kind.MISSION: {
         _m.MAV_CMD_NAV_WAYPOINT: CommandKind("waypoint", True, {1: _SECONDS, 2: _RADIUS}),
         _m.MAV_CMD_NAV_LOITER_UNLIM: CommandKind("loiter", True),
         _m.MAV_CMD_NAV_LOITER_TIME: CommandKind("loiter for a time", True, {1: _SECONDS}),
+        _m.MAV_CMD_NAV_LOITER_TURNS: CommandKind("turns", True, {1: (0.0, MAX_TURNS), 3: (-FARTHEST, FARTHEST)}),
         _m.MAV_CMD_NAV_RETURN_TO_LAUNCH: CommandKind("return", False),
         _m.MAV_CMD_NAV_LAND: CommandKind("landing", True),
         _m.MAV_CMD_NAV_TAKEOFF: CommandKind("takeoff", True),
@@ -98,6 +128,11 @@ COMMANDS: Mapping[Kind, Mapping[int, CommandKind]] = {
         _m.MAV_CMD_CONDITION_YAW: CommandKind("turn", False, {1: (-360.0, 360.0), 4: (0.0, 1.0)}),
         _m.MAV_CMD_DO_JUMP: CommandKind("jump", False, {1: (0.0, MAX_ITEMS), 2: (-1.0, 65_535.0)}),
         _m.MAV_CMD_DO_CHANGE_SPEED: CommandKind("speed", False, {1: (0.0, 3.0), 2: (-2.0, 30.0)}),
+        _m.MAV_CMD_DO_SET_ROI: CommandKind("place to look at", False, {1: (0.0, 4.0)}),
+        _m.MAV_CMD_DO_SET_ROI_LOCATION: CommandKind("place to look at", True),
+        _m.MAV_CMD_DO_SET_ROI_NONE: CommandKind("nothing to look at", False),
+        _m.MAV_CMD_DO_LAND_START: CommandKind("start of the landing", False),
+        **{number: CommandKind(what, False, {}, what) for what, numbers in _LACKING.items() for number in numbers},
     },
     Kind.FENCE: {
         _m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION: CommandKind("inclusion vertex", True, {1: (3.0, MAX_ITEMS)}),
@@ -126,8 +161,22 @@ def item_flaw(kind: Kind, item: PlanItem) -> Flaw | None:
             return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected at most {limit:g}")
     if kind is not Kind.MISSION and not item.has_place:
         return Flaw(_param(5), f"{row.title} without a place")
-    if item.command == _m.MAV_CMD_NAV_WAYPOINT and not item.has_place:
-        return Flaw(_param(5), "waypoint without a place")
+    if item.command in _NEED_A_PLACE and not item.has_place:
+        return Flaw(_param(5), f"{row.title} without a place")
+    if item.command == _m.MAV_CMD_DO_SET_ROI:
+        return _roi_flaw(item)
+    return None
+
+
+_NEED_A_PLACE = (_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_CMD_DO_SET_ROI_LOCATION)
+
+
+def _roi_flaw(item: PlanItem) -> Flaw | None:
+    """MAV_CMD_DO_SET_ROI is a place only if its mode says so."""
+    if item.params[0] not in (_m.MAV_ROI_NONE, _m.MAV_ROI_LOCATION):
+        return Flaw(_param(1), f"look at: mode {item.params[0]:g}, expected 0 (nothing) or 3 (a place)")
+    if item.params[0] == _m.MAV_ROI_LOCATION:
+        return item_flaw(Kind.MISSION, replace(item, command=_m.MAV_CMD_DO_SET_ROI_LOCATION))
     return None
 
 

@@ -282,6 +282,9 @@ class Supervisor:
                 self.navigator.course.stop(self._glance, moving=True)
         home_n = self.navigator.course.anchor_n if self.home is None else self.home.position_n
         flown = self.navigator.setpoint(self.mode, now_us, self._glance, self.airborne, self._flown, home_n)
+        if self.runner.notes:
+            self.notes += [(INFO, text) for text in self.runner.notes]
+            self.runner.notes.clear()
         if isinstance(flown, Event):
             self._notice(flown)
             return self.navigator.course.setpoint(now_us) if self.airborne else None

@@ -7,12 +7,12 @@ INT32_MAX there stands for NaN. MISSION_ITEM carries both as 32-bit floats.
 import math
 
 from fakevehicle.codec import Message
-from fakevehicle.mission_runner import target_of
 from fakevehicle.modes import Refusal
 from fakevehicle.places import Places
 from fakevehicle.plans import GLOBAL_FRAMES, RELATIVE_FRAMES, Kind, PlanItem
 from fakevehicle.services.commands import MAX_GOTO
 from fakevehicle.supervisor import Supervisor
+from fakevehicle.waypoints import target_of
 from wire.dialect import mavlink
 
 _m = mavlink
