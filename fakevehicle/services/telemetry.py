@@ -41,13 +41,12 @@ CAPABILITIES = (
     | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_RALLY
 )
 _INERTIAL = mavlink.MAV_SYS_STATUS_SENSOR_3D_GYRO | mavlink.MAV_SYS_STATUS_SENSOR_3D_ACCEL
-_SENSORS = (
+_SENSORS = (  # there is no receiver for sticks, and none is needed
     _INERTIAL
     | mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
     | mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
     | mavlink.MAV_SYS_STATUS_SENSOR_GPS
     | mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS
-    | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER  # none is needed, which clients want to see as healthy
     | mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
     | mavlink.MAV_SYS_STATUS_AHRS
     | mavlink.MAV_SYS_STATUS_PREARM_CHECK
@@ -138,7 +137,7 @@ class Telemetry(Service):
         when its health goes, whether it is there or not.
         """
         e, s, b = self.estimate, self._supervisor, self._battery
-        health = mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | mavlink.MAV_SYS_STATUS_SENSOR_RC_RECEIVER
+        health = mavlink.MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS
         if "imu" not in e.silent:
             health |= _INERTIAL
         if "baro" not in e.silent:
