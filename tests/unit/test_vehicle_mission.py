@@ -429,6 +429,173 @@ def test_a_guided_item_is_a_goto(pilot: Pilot) -> None:
     assert download(pilot) == []
 
 
+def test_waypoints_without_a_hold_are_passed_in_order_and_those_with_one_stopped_at(pilot: Pilot) -> None:
+    plan = [
+        item(0, m.MAV_CMD_NAV_TAKEOFF, up=5.0),
+        waypoint(1, 12.0, 0.0, 5.0),
+        item(2, m.MAV_CMD_DO_CHANGE_SPEED, frame=2, p1=1.0, p2=2.0),
+        waypoint(3, 12.0, 12.0, 5.0),
+        waypoint(4, 0.0, 12.0, 5.0, p1=1.5),
+        waypoint(5, 0.0, 0.0, 5.0),
+    ]
+    assert upload(pilot, plan) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    slowest: dict[int, float] = {}
+    top = 0.0
+    while pilot.mode != HOLD or not pilot.armed:
+        pilot.run(0.02)
+        for seq, place in ((1, (12, 0)), (3, (12, 12)), (4, (0, 12))):
+            if math.dist(point(pilot).p[:2], place) < 1.0:
+                asked = float(np.linalg.norm(point(pilot).setpoint.velocity_n))
+                slowest[seq] = min(slowest.get(seq, 9.0), asked)
+        if at(pilot, 3):
+            top = max(top, float(np.linalg.norm(point(pilot).setpoint.velocity_n)))
+        assert pilot.now_us < 90e6
+    assert slowest[1] > 1.0  # the next leg's 2 m/s, round a right angle
+    assert slowest[3] > 1.0
+    assert slowest[4] == 0.0
+    assert top == pytest.approx(2.0)
+    assert reached(pilot) == [0, 1, 2, 3, 4, 5]
+    np.testing.assert_allclose(point(pilot).p, [0, 0, -5], atol=0.2)
+
+
+def test_a_waypoint_that_was_missed_is_flown_back_to(pilot: Pilot) -> None:
+    plan = [item(0, m.MAV_CMD_NAV_TAKEOFF, up=5.0), waypoint(1, 15.0, 0.0, 5.0), waypoint(2, 15.0, 15.0, 5.0)]
+    assert upload(pilot, plan) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: point(pilot).p[0] > 10.0, 30)
+    # WHEN a gust holds it off while the way goes round the corner
+    for _ in range(75):
+        point(pilot).p[0] = min(point(pilot).p[0], 12.0)
+        pilot.tick(10)
+    # THEN it is not said to be reached before the vehicle has been there
+    assert not at(pilot, 1)
+    pilot.until(lambda: at(pilot, 1), 20)
+    assert math.dist(point(pilot).p, (15, 0, -5)) < 1.0
+    pilot.until(lambda: at(pilot, 2), 20)
+
+
+def test_a_held_mission_goes_on_from_the_middle_of_a_corner(pilot: Pilot) -> None:
+    plan = [item(0, m.MAV_CMD_NAV_TAKEOFF, up=5.0), waypoint(1, 15.0, 0.0, 5.0), waypoint(2, 15.0, 15.0, 5.0)]
+    assert upload(pilot, plan) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: at(pilot, 1), 20)
+    assert pilot.command(176, 1, 4, 3) == ACCEPTED
+    pilot.run(3.0)
+    assert np.linalg.norm(point(pilot).v) < 0.05
+    assert pilot.command(176, 1, 4, 4) == ACCEPTED
+    pilot.until(lambda: at(pilot, 2), 20)
+    assert reached(pilot) == [0, 1, 2]
+
+
+def test_turns_are_flown_with_the_nose_to_their_centre(pilot: Pilot) -> None:
+    plan = [
+        item(0, m.MAV_CMD_NAV_TAKEOFF, up=4.0),
+        item(1, m.MAV_CMD_NAV_LOITER_TURNS, 10.0, 0.0, 6.0, p1=1.0, p3=-4.0),
+        waypoint(2, 0.0, 0.0, 5.0),
+    ]
+    assert upload(pilot, plan) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: abs(point(pilot).p[1]) > 1.0, 30)
+    assert point(pilot).p[1] > 0.0  # from the south side, counter-clockwise seen from above: through the east
+    bearings = []
+    while not at(pilot, 1):
+        pilot.run(0.1)
+        north, east, down = point(pilot).p - [10.0, 0.0, 0.0]
+        assert math.hypot(north, east) == pytest.approx(4.0, abs=0.5)
+        assert down == pytest.approx(-6.0, abs=0.2)
+        bearings.append(math.atan2(east, north))
+        nose = point(pilot).setpoint.yaw
+        assert abs(math.remainder(nose - math.atan2(-east, -north), 2 * math.pi)) < 0.3
+        assert pilot.now_us < 60e6
+    assert np.unwrap(bearings)[-1] - math.pi == pytest.approx(-2 * math.pi, abs=0.1)
+    pilot.until(lambda: at(pilot, 2), 20)
+    assert reached(pilot) == [0, 1, 2]
+
+
+@pytest.mark.parametrize("command", [195, 201])
+def test_the_nose_looks_at_a_place_until_it_is_told_not_to(pilot: Pilot, command: int) -> None:
+    plan = [
+        item(0, m.MAV_CMD_NAV_TAKEOFF, up=5.0),
+        item(1, command, 10.0, 10.0, 0.0, p1=3.0),
+        waypoint(2, 20.0, 0.0, 5.0),
+        item(3, m.MAV_CMD_DO_SET_ROI_NONE, frame=2),
+        waypoint(4, 20.0, 10.0, 5.0),
+    ]
+    assert upload(pilot, plan) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: point(pilot).p[0] > 2.0, 30)
+    # WHEN the mission is held and goes on THEN it still looks there
+    assert pilot.command(176, 1, 4, 3) == ACCEPTED
+    pilot.run(2.0)
+    assert pilot.command(176, 1, 4, 4) == ACCEPTED
+    pilot.until(lambda: point(pilot).p[0] > 10.0, 30)
+    while point(pilot).p[0] < 18.0:
+        pilot.run(0.1)
+        wanted = math.atan2(10.0 - point(pilot).p[1], 10.0 - point(pilot).p[0])
+        assert abs(math.remainder(point(pilot).setpoint.yaw - wanted, 2 * math.pi)) < 0.15
+    # WHEN there is nothing to look at THEN the nose is along the way again
+    pilot.until(lambda: at(pilot, 4), 30)
+    assert point(pilot).setpoint.yaw == pytest.approx(math.pi / 2, abs=0.15)
+
+
+def test_a_survey_as_ground_stations_plan_it_is_flown_and_its_camera_told_to_be_missing(pilot: Pilot) -> None:
+    plan = [
+        item(0, m.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, frame=2, p1=-90.0),
+        item(1, m.MAV_CMD_NAV_TAKEOFF, up=8.0),
+        waypoint(2, 10.0, 0.0, 8.0),
+        item(3, m.MAV_CMD_DO_SET_CAM_TRIGG_DIST, frame=2, p1=5.0, p3=1.0),
+        waypoint(4, 10.0, 20.0, 8.0),
+        item(5, m.MAV_CMD_DO_SET_CAM_TRIGG_DIST, frame=2),
+        waypoint(6, 14.0, 20.0, 8.0),
+        item(7, m.MAV_CMD_IMAGE_START_CAPTURE, frame=2, p2=2.0),
+        waypoint(8, 14.0, 0.0, 8.0),
+        item(9, m.MAV_CMD_IMAGE_STOP_CAPTURE, frame=2),
+        item(10, m.MAV_CMD_DO_SET_SERVO, frame=2, p1=9.0, p2=1500.0),
+        item(11, m.MAV_CMD_DO_MOUNT_CONTROL, frame=2, p1=-45.0),
+        item(12, m.MAV_CMD_NAV_DELAY, frame=2, p1=1.0),
+        item(13, m.MAV_CMD_NAV_RETURN_TO_LAUNCH, frame=2),
+    ]
+    assert upload(pilot, plan) == 0
+    assert [fields(i) for i in download(pilot)] == [fields(i) for i in plan]
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    slowest = 9.0
+    while pilot.mode != RTL:
+        pilot.run(0.02)
+        if at(pilot, 4) or at(pilot, 6):
+            slowest = min(slowest, float(np.linalg.norm(point(pilot).setpoint.velocity_n)))
+        assert pilot.now_us < 60e6
+    assert slowest > 0.5  # what the camera is asked for is done in passing
+    assert reached(pilot) == list(range(14))
+    missing = [text for text in pilot.texts() if "passed over" in text]
+    assert missing == [
+        "Mission item 0 passed over: no gimbal here",
+        "Mission item 3 passed over: no camera here",
+        "Mission item 10 passed over: no servo here",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "result"),
+    [
+        (item(1, m.MAV_CMD_DO_SET_ROI, 5.0, 5.0, p1=2.0), m.MAV_MISSION_INVALID_PARAM1),
+        (item(1, m.MAV_CMD_DO_SET_ROI, frame=2, p1=3.0), m.MAV_MISSION_UNSUPPORTED_FRAME),
+        (item(1, m.MAV_CMD_NAV_LOITER_TURNS, 5.0, 5.0, 5.0, p1=-1.0), m.MAV_MISSION_INVALID_PARAM1),
+        (item(1, m.MAV_CMD_NAV_LOITER_TURNS, 5.0, 5.0, 5.0, p1=1.0, p3=2e4), m.MAV_MISSION_INVALID_PARAM3),
+    ],
+)
+def test_turns_and_places_to_look_at_that_cannot_be_are_refused(pilot: Pilot, wrong: Any, result: int) -> None:
+    assert upload(pilot, [SQUARE[0], wrong]) == result
+    assert pilot.texts()[-1].startswith("Plan refused")
+
+
+def test_turns_that_leave_the_fence_are_not_begun(pilot: Pilot) -> None:
+    assert upload(pilot, square_fence(12.0), 1) == 0
+    for radius, result in ((15.0, REJECTED), (5.0, ACCEPTED)):
+        assert upload(pilot, [SQUARE[0], item(1, 18, 0.0, 0.0, 5.0, p1=1.0, p3=radius)]) == 0
+        assert pilot.command(300, 0, 0) == result
+
+
 # Home, return, speed
 
 
