@@ -20,9 +20,10 @@ from fakevehicle.battery import Battery
 from fakevehicle.control import gains
 from fakevehicle.control.gains import ControlTables
 from fakevehicle.errors import DivergedError
-from fakevehicle.estimator import settings
+from fakevehicle.estimator import settings, terrain
 from fakevehicle.estimator.horizon import Estimator
 from fakevehicle.estimator.settings import estimator_config
+from fakevehicle.estimator.terrain import Terrain
 from fakevehicle.faults import Fault, FaultKind, FaultSchedule, Sensor
 from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.physics.wind import TURBULENCE, Gust, gust_table
@@ -59,6 +60,7 @@ _I = ParameterType.INT32
 PARAMETERS: tuple[Parameter, ...] = (
     *gains.PARAMETERS,
     *settings.PARAMETERS,
+    *terrain.PARAMETERS,
     *suite.PARAMETERS,
     Parameter("MC_BAT_SCALE_EN", 1, 0, 1, "", "raise the motors' commands as the battery's voltage falls", _I),
     Parameter("SIM_BAT_CAPACITY", 0, 0, 100000, "mAh", "simulator: capacity of the battery, 0 for the airframe's"),
@@ -81,6 +83,10 @@ class FlightStack:
     faults : of sensors and motors, on a schedule.
     gusts : of the wind, on a schedule.
     world : what rangefinder and obstacle sensor see.
+
+    Attributes
+    ----------
+    terrain : the ground below, by the rangefinder.
     """
 
     TICK_US = 4_000
@@ -130,6 +136,8 @@ class FlightStack:
         self._estimator = Estimator(estimator_config(p), field, GRAVITY, self.TICK_US)
         self._turbulent = False
         self._resets = self._estimator.resets
+        self.terrain = Terrain(p)
+        self._range: RangeSample | None = None
         self._battery = Battery(airframe.battery)
         self._gauge = Gauge(self._battery, self._faults, self._gust_rng.spawn(1)[0])
         self._read_own_parameters()
@@ -192,6 +200,11 @@ class FlightStack:
         if estimator.resets is not self._resets:
             self._resets = estimator.resets
             self._control.follow(self._resets)
+            self.terrain.moved(float(self._resets.delta_position_n[2]))
+        if self._sensors.range is not self._range:
+            self._range = self._sensors.range
+            if self._range is not None and estimator.filter is not None:
+                self.terrain.take(self._range, estimator.out, estimator.flying)
         if now_us % BATTERY_US == 0:
             self._drain(now_us)
 
@@ -310,6 +323,11 @@ class FlightStack:
         return self._sensors.mag
 
     @property
+    def clearance(self) -> float | None:
+        """Height above the ground below [m], as the rangefinder tells it; None while it does not."""
+        return self.terrain.down - float(self._estimator.out[2]) if self.terrain.valid(self._now_us) else None
+
+    @property
     def range(self) -> RangeSample | None:
         """The newest sample of the rangefinder; None without one."""
         return self._sensors.range
@@ -355,6 +373,7 @@ class FlightStack:
         self._control.update(self._parameters, at_rest=self._motors == tick.RESTING)
         self._estimator.configure(estimator_config(self._parameters))
         self._sensors.configure(self._parameters)
+        self.terrain.configure(self._parameters)
         self._read_own_parameters()
 
     def _read_own_parameters(self) -> None:

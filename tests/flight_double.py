@@ -42,7 +42,7 @@ class PointMass:
         self.resets = 0
         self.battery = Battery(Pack(cells=4, capacity=5.0, resistance=0.02, idle_power=8.0, full_power=400.0))
         self.faults: list[Fault] = []
-        self.range = None
+        self.range = self.clearance = None
         self.obstacles = None
         self.wind = None
 

@@ -62,9 +62,6 @@ _HIL_STATE_QUATERNION = Layout(mavlink.MAVLink_hil_state_quaternion_message)
 _WIND_COV = Layout(mavlink.MAVLink_wind_cov_message)
 """What goes out ten times a second and more."""
 
-RANGE_US = 500_000
-"""Height above ground is known for this long after the rangefinder's last word [us]."""
-
 
 class Telemetry(Service):
     """Builds messages from the vehicle's parts.
@@ -257,7 +254,9 @@ class Telemetry(Service):
         up = -g.z
         amsl = origin.altitude + up
         above_home = up + float(s.home.position_n[2]) if s.home is not None else NAN
-        return mavlink.MAVLink_altitude_message(self.now_us, amsl, amsl, up, above_home, NAN, NAN)
+        clear = self._stack.clearance
+        below = NAN if clear is None else clear
+        return mavlink.MAVLink_altitude_message(self.now_us, amsl, amsl, up, above_home, below, below)
 
     def vfr_hud(self) -> Message | None:
         g, origin = self._stack.glance, self._stack.origin
@@ -394,8 +393,9 @@ class Telemetry(Service):
             flags |= mavlink.ESTIMATOR_VELOCITY_VERT
         if "imu" in e.silent:
             flags |= mavlink.ESTIMATOR_ACCEL_ERROR
-        below = self._stack.range
-        if below is not None and self.now_us - below.now_us < RANGE_US and not math.isnan(below.distance):
+        above_ground = NAN
+        if self._stack.clearance is not None:
+            above_ground = self._stack.terrain.test_ratio
             flags |= mavlink.ESTIMATOR_POS_VERT_AGL
         if e.attitude_valid:
             flags |= mavlink.ESTIMATOR_ATTITUDE
@@ -419,7 +419,7 @@ class Telemetry(Service):
             ratio.get("gps_position", NAN),
             ratio.get("baro", NAN),
             ratio.get("mag", NAN),
-            NAN,
+            above_ground,
             NAN,
             math.sqrt(max(north + east, 0.0)),
             math.sqrt(max(down, 0.0)),

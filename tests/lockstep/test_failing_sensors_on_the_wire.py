@@ -101,6 +101,16 @@ def test_a_fault_of_the_configuration_comes_at_its_time() -> None:
     assert not flags(pilot) & m.ESTIMATOR_POS_VERT_AGL
 
 
+def test_the_height_above_a_roof_is_told_where_the_altitude_stays() -> None:
+    pilot = hovering(world=World(boxes=np.array([[-3.0, -3.0, -1.0, 3.0, 3.0, -0.9]])))  # a roof it took off through
+    pilot.run(1.5)
+    told = pilot.last("ALTITUDE")
+    height = -float(pilot.vehicle.truth.position_n[2])
+    assert told.altitude_relative == pytest.approx(height, abs=0.3)
+    assert told.bottom_clearance == told.altitude_terrain == pytest.approx(height - 1.0, abs=0.1)
+    assert 0.0 <= pilot.last("ESTIMATOR_STATUS").hagl_ratio < 1.0
+
+
 def test_a_wall_ahead_is_told_ten_times_a_second_and_the_height_above_ground_with_it() -> None:
     pilot = hovering(world=World(boxes=np.array([[6.0, -30.0, -9.0, 7.0, 30.0, 1.0]])))
     before = len(pilot.of("OBSTACLE_DISTANCE"))
