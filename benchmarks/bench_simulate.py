@@ -21,7 +21,7 @@ from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.rerun import rerun
-from companion.mission import parse_mission, read_mission_file
+from companion.missionfile import parse_mission, read_mission_file
 from logs.reader import Recording
 from logs.recorder import Recorder
 

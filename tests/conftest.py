@@ -12,7 +12,7 @@ from companion.drivers.lockstep import VehicleCore, fly_lockstep
 from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap, Tick
-from companion.mission import parse_mission
+from companion.missionfile import parse_mission
 from companion.seam import Note, OperatorCommand
 from companion.verdict import FlightMeter, Verdict, judge
 from logs.recorder import Recorder

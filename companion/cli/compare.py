@@ -15,7 +15,8 @@ from companion.cli import show
 from companion.drivers.planning import make_plan
 from companion.errors import CompanionError
 from companion.itinerary import Itinerary
-from companion.mission import Mission, load_mission
+from companion.mission import Mission
+from companion.missionfile import load_mission
 from companion.seam import PlanWanted
 from companion.wording import in_mission_words
 from planner import METHODS, Plan, PlannerError, World

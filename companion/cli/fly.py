@@ -22,7 +22,8 @@ from companion.drivers.realtime import fly_realtime
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
-from companion.mission import Mission, parse_mission, read_mission_file
+from companion.mission import Mission
+from companion.missionfile import parse_mission, read_mission_file
 from companion.verdict import FlightMeter, judge
 from logs.errors import RecordingError
 from logs.recorder import Recorder

@@ -9,7 +9,7 @@ from companion.cli import show
 from companion.drivers.planning import answer, make_plan
 from companion.errors import CompanionError
 from companion.itinerary import Itinerary
-from companion.mission import load_mission
+from companion.missionfile import load_mission
 from companion.seam import PlanReady, PlanWanted
 from planner import World, warm_up
 

@@ -14,7 +14,7 @@ from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
-from companion.mission import parse_mission, read_mission_file
+from companion.missionfile import parse_mission, read_mission_file
 from companion.verdict import FlightMeter, judge
 from fakevehicle.vehicle import Vehicle
 from logs.recorder import Recorder

@@ -9,7 +9,7 @@ from companion.core import Companion, CompanionConfig
 from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, tick_record, to_input
 from companion.drivers.tick import Tick
 from companion.errors import RerunError
-from companion.mission import parse_mission
+from companion.missionfile import parse_mission
 from logs.compare import Comparison, Output, compare
 from logs.reader import Recording
 from logs.table import ticks

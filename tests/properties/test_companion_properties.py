@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from companion.core import VEHICLE_LINK, Companion, CompanionConfig
 from companion.itinerary import Itinerary
-from companion.mission import load_mission
+from companion.missionfile import load_mission
 from companion.phases import Phase
 from companion.seam import Note, OperatorCommand, PlanReady, Reference
 from planner import Trajectory

@@ -9,7 +9,7 @@ import pytest
 from companion.core import VEHICLE_LINK, Companion, CompanionConfig
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
-from companion.mission import parse_mission
+from companion.missionfile import parse_mission
 from companion.seam import PlanReady, PlanWanted
 from companion.verdict import FlightMeter, judge
 from tests.conftest import HOP

@@ -8,7 +8,8 @@ import pytest
 
 from companion.cli.worlds import mission_text, write_world
 from companion.errors import CompanionError
-from companion.mission import Mission, load_mission, parse_mission
+from companion.mission import Mission
+from companion.missionfile import load_mission, parse_mission
 from planner import Box, NoPathFound, plan
 from planner.families import FAMILIES, make
 

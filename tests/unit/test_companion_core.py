@@ -3,7 +3,7 @@
 import math
 
 from companion.core import VEHICLE_LINK, Companion, CompanionConfig
-from companion.mission import load_mission
+from companion.missionfile import load_mission
 from companion.seam import Note
 from wire.datagram import Datagram
 from wire.dialect import mavlink

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from companion.itinerary import SPOOL_UP_S, Itinerary
-from companion.mission import parse_mission
+from companion.missionfile import parse_mission
 from planner import Trajectory
 
 MISSION = """\

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from companion.errors import MissionError
-from companion.mission import load_mission
+from companion.missionfile import load_mission
 from planner import PointCloud, Prism, VoxelGrid
 from planner.pcd import write_pcd
 

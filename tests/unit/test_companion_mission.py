@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from companion.errors import MissionError
-from companion.mission import load_mission, parse_mission
+from companion.missionfile import load_mission, parse_mission
 
 GOOD = """\
 name: hop

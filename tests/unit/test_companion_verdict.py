@@ -5,7 +5,7 @@ import pytest
 
 from companion.core import VEHICLE_LINK, Companion, CompanionConfig
 from companion.drivers.tick import Tick
-from companion.mission import parse_mission
+from companion.missionfile import parse_mission
 from companion.phases import Phase
 from companion.seam import Reference
 from companion.verdict import FlightMeter, failed_expectations, judge, least_clearance

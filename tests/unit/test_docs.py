@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from companion.mission import Mission, parse_mission
-from companion.mission import _all_keys as all_keys
+from companion.mission import Mission
+from companion.missionfile import all_keys, parse_mission
 
 PAGES = sorted([*Path().glob("*.md"), *Path("docs").rglob("*.md")])
 

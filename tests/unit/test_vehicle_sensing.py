@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from companion.cli.vehicle import seen_world
-from companion.mission import parse_mission
+from companion.missionfile import parse_mission
 from fakevehicle.airframe import load_airframe
 from fakevehicle.errors import ScenarioError
 from fakevehicle.faults import parse_fault

@@ -1,0 +1,167 @@
+"""The YAML file of a mission: read safely, checked once, every problem told at once.
+
+Each has its line: file, line, key, what was found and what was expected. The file is read with PyYAML's safe loader.
+"""
+
+import difflib
+from pathlib import Path
+from typing import Any, get_args
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from companion.errors import MissionError
+from companion.mission import Mission
+
+MAX_FILE_BYTES = 1_000_000
+"""A mission is written by people; beyond this it is something else."""
+MAX_DEPTH = 32
+"""Of nested lists and mappings; a mission needs seven."""
+
+
+def load_mission(path: str | Path) -> Mission:
+    """Read and check a mission file.
+
+    Raises
+    ------
+    MissionError : the file is missing, too large, not YAML, or not a mission; every problem has its own line.
+    """
+    return parse_mission(read_mission_file(path), str(path))
+
+
+def read_mission_file(path: str | Path) -> bytes:
+    """The bytes of a mission file, as they go into the recording.
+
+    Raises
+    ------
+    MissionError : it cannot be read or is too large.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            return file.read(MAX_FILE_BYTES + 1)
+    except OSError as error:
+        raise MissionError(str(path), [f"cannot be read: {error.strerror or error}"]) from error
+
+
+def parse_mission(data: bytes, file: str) -> Mission:
+    """Check a mission given as the bytes of its YAML file; `file` is its name in errors. Raises as `load_mission`.
+
+    Files of voxels and clouds are looked for in the folder of `file`.
+    """
+    if len(data) > MAX_FILE_BYTES:
+        raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
+    try:
+        text = data.decode("utf-8")
+        _refuse_traps(text, file)
+        loader = yaml.SafeLoader(text)
+        node = loader.get_single_node()
+        document = None if node is None else loader.construct_document(node)
+    except UnicodeDecodeError as error:
+        raise MissionError(file, [f"byte {error.start}: not UTF-8 text"]) from error
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else 1
+        raise MissionError(file, [f"line {line}: not YAML: {error.problem or error.context}"]) from error
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        raise MissionError(file, [f"not YAML: {' '.join(str(error).split())[:120]}"]) from error
+    if not isinstance(document, dict):
+        raise MissionError(
+            file, [f"line 1: found {_shown(document)}, expected a mapping with name, vehicle, world, steps"]
+        )
+    twice = _repeated_keys(node)
+    if twice:
+        raise MissionError(file, twice)
+    try:
+        mission = Mission.model_validate(document)
+    except ValidationError as error:
+        raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
+    found = mission.read_maps(Path(file).parent)
+    if found:
+        raise MissionError(file, [f"line {_line(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
+    return mission
+
+
+def _refuse_traps(text: str, file: str) -> None:
+    """What is YAML and yet no mission: aliases, which a few bytes can make endless, and bottomless nesting."""
+    depth = 0
+    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+        line = event.start_mark.line + 1 if event.start_mark is not None else 1
+        if isinstance(event, yaml.AliasEvent):
+            raise MissionError(file, [f"line {line}: found a YAML alias (*name), expected every value written out"])
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > MAX_DEPTH:
+            raise MissionError(file, [f"line {line}: found more than {MAX_DEPTH} levels of nesting"])
+
+
+def _problem(item: Any, root: yaml.Node | None) -> str:
+    """One pydantic error as `line N: key: found ..., expected ...`."""
+    keys = [key for key in item["loc"]]
+    line, key = _line(root, keys), ".".join(str(k) for k in keys) or "mission"
+    kind, message, context = item["type"], item["msg"].removeprefix("Value error, "), item.get("ctx", {})
+    if kind == "missing":
+        return f"line {line}: {key}: found nothing, expected a value"
+    if kind == "extra_forbidden":
+        near = difflib.get_close_matches(str(keys[-1]), all_keys(Mission), n=1)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        return f"line {line}: {key}: found an unknown key, expected one of docs/mission.md{meant}"
+    if kind == "model_type":
+        return f"line {line}: {key}: found {_shown(item['input'])}, expected a mapping"
+    if kind == "literal_error":
+        return f"line {line}: {key}: found {_shown(item['input'])}, expected {context.get('expected')}"
+    if kind == "value_error":
+        return f"line {line}: {key}: {message}" + ("" if "found" in message else f", found {_shown(item['input'])}")
+    expected = message.removeprefix("Input should be ").split(", unable")[0]
+    return f"line {line}: {key}: found {_shown(item['input'])}, expected {expected}"
+
+
+def _repeated_keys(root: yaml.Node | None) -> list[str]:
+    """YAML would silently keep the last of two equal keys."""
+    problems, waiting = [], [] if root is None else [root]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, yaml.MappingNode):
+            seen: set[str] = set()
+            for key, value in node.value:
+                if key.value in seen:
+                    problems.append(f"line {key.start_mark.line + 1}: {key.value}: found twice, expected once")
+                seen.add(key.value)
+                waiting.append(value)
+        elif isinstance(node, yaml.SequenceNode):
+            waiting.extend(node.value)
+    return problems
+
+
+def all_keys(model: type[BaseModel]) -> set[str]:
+    """Every key that the mission format knows, at any depth."""
+    keys: set[str] = set()
+    for name, entry in model.model_fields.items():
+        keys.add(name)
+        inner = [entry.annotation, *get_args(entry.annotation)]
+        for kind in inner:
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                keys |= all_keys(kind)
+    return keys
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, dict):
+        return "a mapping with " + (", ".join(map(str, list(value)[:6])) or "no keys")
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    return "nothing" if value is None else repr(value)[:60]
+
+
+def _line(node: yaml.Node | None, keys: list[Any]) -> int:
+    """Line where the deepest node that the key path reaches is named."""
+    line = 1
+    for key in keys:
+        if isinstance(node, yaml.MappingNode):
+            found = next(((k, v) for k, v in node.value if k.value == str(key)), None)
+            if found is None:
+                break
+            line, node = found[0].start_mark.line + 1, found[1]
+        elif isinstance(node, yaml.SequenceNode) and isinstance(key, int) and key < len(node.value):
+            node = node.value[key]
+            line = node.start_mark.line + 1
+        else:
+            break
+    return line
