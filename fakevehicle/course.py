@@ -86,13 +86,18 @@ class Course:
         return corner
 
     def turn_about(self, now_us: int, centre_n: FloatArray, turns: float, clockwise: bool) -> None:
-        """Fly circles about a place, (3,) [m], from the anchor, back to rest: at the cruise speed, if it can."""
+        """Fly circles about a place, (3,) [m], from the anchor, once it is reached, and back to rest.
+
+        At the cruise speed, if the circle lets it.
+        """
         p = self._parameters
         speed = max(float(p["MPC_XY_CRUISE"]) if self.cruise is None else self.cruise, SLOWEST)
         most = float(p["MPC_ACC_HOR"])
-        way = circle(now_us, self.anchor_n, centre_n, turns, clockwise=clockwise, speed=speed, most=most)
-        end_us = now_us + math.ceil(1e6 * way.duration_s)
-        self._way, self._still, self.anchor_n = (way,), None, way.setpoint(end_us, 0.0).position_n
+        late_s = self.late_s(now_us)
+        begin_us, before = (now_us, ()) if late_s >= 0.0 else (now_us - round(1e6 * late_s), self._way)
+        way = circle(begin_us, self.anchor_n, centre_n, turns, clockwise=clockwise, speed=speed, most=most)
+        end_us = begin_us + math.ceil(1e6 * way.duration_s)
+        self._way, self._still, self.anchor_n = (*before, way), None, way.setpoint(end_us, 0.0).position_n
 
     def look_at(self, place_n: FloatArray | None) -> None:
         """Point the nose at a place, (3,) [m], from now on; None: no longer."""

@@ -71,6 +71,7 @@ class MissionRunner:
 
     Attributes
     ----------
+    looks_at : (3,) what the mission wants looked at [m].
     notes : texts for people since somebody last emptied the list.
     current : index of the item that is flown or comes next; as many as there are items when it is complete.
     reached : the newest item that was reached, None before the first; `reached_count` counts them.
@@ -92,7 +93,7 @@ class MissionRunner:
         self._corner: Corner | None = None  # by which it is passed
         self._passing = False  # the item before was passed: its corner leads to this one
         self._missed = -1  # the item that was to be passed and was not reached
-        self._looks_at: FloatArray | None = None
+        self.looks_at: FloatArray | None = None
         self._lacking: set[str] = set()  # what people have been told of
         self.notes: list[str] = []
         self.reached: int | None = None
@@ -134,7 +135,7 @@ class MissionRunner:
         self._active = True
         self._interrupted = self._passing = False
         self._phase, self._stay_until_us, self._corner = _Phase.START, 0, None
-        self._course.look_at(self._looks_at)
+        self._course.look_at(self.looks_at)
 
     def leave(self) -> None:
         """Another mode is entered."""
@@ -210,7 +211,7 @@ class MissionRunner:
             if item.command == _m.MAV_CMD_NAV_LOITER_TURNS:
                 self._turn_about(now_us, item, home_n)
         elif self._phase is _Phase.TURN and late_s >= 0.0:
-            course.look_at(self._looks_at)
+            course.look_at(self.looks_at)
             self._done()
         if self._phase is _Phase.STAY:
             self._stay(now_us, stay_s(item))
@@ -296,7 +297,7 @@ class MissionRunner:
         if not item.has_place:
             centre_n = self._place_n - (turn_radius(item), 0.0, 0.0)
         self._course.turn_about(now_us, centre_n, turns, not item.params[2] < 0.0)
-        if self._looks_at is None:
+        if self.looks_at is None:
             self._course.look_at(centre_n)
         self._phase = _Phase.TURN
 
@@ -305,8 +306,8 @@ class MissionRunner:
         nothing = item.command == _m.MAV_CMD_DO_SET_ROI_NONE or (
             item.command == _m.MAV_CMD_DO_SET_ROI and item.params[0] == _m.MAV_ROI_NONE
         )
-        self._looks_at = None if nothing else target_of(item, self._places, float(home_n[2]), home_n)
-        self._course.look_at(self._looks_at)
+        self.looks_at = None if nothing else target_of(item, self._places, float(home_n[2]), home_n)
+        self._course.look_at(self.looks_at)
         self._done()
 
     def _pass_over(self, item: PlanItem) -> None:
@@ -359,7 +360,7 @@ class MissionRunner:
             self._plan = self._store.mission
             self.set_current(0)
             self._started, self.reached = False, None
-            self._looks_at = None
+            self.looks_at = None
             self._lacking.clear()
             if self._active:
                 self._course.look_at(None)

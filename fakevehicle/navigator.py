@@ -12,7 +12,7 @@ from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
 from fakevehicle.plans import PlanStore
 from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
-from fakevehicle.waypoints import target_of
+from fakevehicle.waypoints import rim_of, target_of
 
 ARRIVED = 0.3
 """Height error [m] within which a takeoff is done."""
@@ -90,6 +90,27 @@ class Navigator:
         self.course.leg_to(now_us, position_n)
         if not math.isnan(yaw):
             self.course.turn_to(now_us, yaw)
+
+    def orbit(
+        self, now_us: int, centre_n: FloatArray, radius: float, speed: float | None, turns: float, *, facing: bool
+    ) -> None:
+        """Fly to a circle about a point, (3,) [m], and round it: clockwise, or with `radius` below zero the other way.
+
+        `facing` points the nose to the centre.
+        """
+        self._climbing = False
+        course = self.course
+        course.cruise = speed
+        course.leg_to(now_us, rim_of(centre_n, abs(radius), course.anchor_n))
+        course.turn_about(now_us, centre_n, turns, radius > 0.0)
+        if facing:
+            course.look_at(centre_n)
+
+    def look_at(self, place_n: FloatArray | None) -> None:
+        """Point the nose at a place, (3,) [m], or no longer; a mission that is left and goes on remembers it."""
+        self.course.look_at(place_n)
+        if self._mode is Mode.MISSION:
+            self.runner.looks_at = place_n
 
     def setpoint(
         self, mode: Mode, now_us: int, glance: Glance, airborne: bool, flown: bool, home_n: FloatArray

@@ -23,6 +23,7 @@ from fakevehicle.places import Places
 from fakevehicle.plans import PlanStore
 from fakevehicle.setpoint_stream import SetpointStream
 from fakevehicle.vocabulary import FloatArray, Glance, Setpoint
+from fakevehicle.waypoints import ring_of
 
 CRITICAL, WARNING, INFO = 2, 4, 6
 
@@ -205,7 +206,7 @@ class Supervisor:
 
     def ask_goto(self, now_us: int, position_n: FloatArray, yaw: float, speed: float | None = None) -> Refusal | None:
         """Fly to a point and hold there; (3,) [m], yaw [rad] or NaN for the present one, speed [m/s] or None."""
-        if self.home is not None and self.fence.breach_at(position_n, self.home.position_n) is not None:
+        if self._leaves([position_n]):
             return Refusal.OUTSIDE_FENCE
         reason = self.ask(Event.ASK_GOTO, now_us)
         if reason is None:
@@ -213,6 +214,28 @@ class Supervisor:
                 self._stream.newest = None
             self.navigator.go_to(now_us, position_n, yaw, speed)
         return reason
+
+    def ask_orbit(
+        self, now_us: int, centre_n: FloatArray, radius: float, speed: float | None, turns: float, *, facing: bool
+    ) -> Refusal | None:
+        """Fly circles about a point, as `Navigator.orbit` has it, and hold where they end."""
+        if self._leaves(ring_of(centre_n, abs(radius))):
+            return Refusal.OUTSIDE_FENCE
+        reason = self.ask(Event.ASK_GOTO, now_us)
+        if reason is None:
+            if self.mode is Mode.GUIDED:
+                self._stream.newest = None
+            self.navigator.orbit(now_us, centre_n, radius, speed, turns, facing=facing)
+        return reason
+
+    def look_at(self, place_n: FloatArray | None) -> None:
+        """Point the nose at a place, (3,) [m], in the modes that fly by themselves, until the mode changes."""
+        self.navigator.look_at(place_n)
+
+    def _leaves(self, points: list[FloatArray]) -> bool:
+        """Whether the fence keeps from one of some points, (3,) [m] each."""
+        home = self.home
+        return home is not None and any(self.fence.breach_at(n, home.position_n) is not None for n in points)
 
     def ask_speed(self, speed: float | None) -> None:
         """Fly automatic modes at another speed over ground [m/s] until the mode changes; None: MPC_XY_CRUISE again."""

@@ -31,6 +31,7 @@ from fakevehicle.params import Parameter, ParameterSet, ParameterType
 from fakevehicle.places import Places
 from fakevehicle.plans import PlanStore
 from fakevehicle.services.absent import NoShell
+from fakevehicle.services.circling import Circling
 from fakevehicle.services.commands import Commands
 from fakevehicle.services.ftp import Ftp
 from fakevehicle.services.logs import Logs
@@ -171,6 +172,7 @@ class Vehicle:
                 self._telemetry.home_position,
                 self._telemetry.gps_global_origin,
             ),
+            Circling(self._supervisor, self._places),
             NoShell(self._outbox, self._warn_rarely),
             metadata,
             Ftp(tree, self._outbox, self._warn_rarely),

@@ -58,10 +58,21 @@ def aim_of(item: PlanItem, places: Places, home_z: float, came_n: FloatArray) ->
     if item.command == _m.MAV_CMD_NAV_LAND:
         aim_n[2] = came_n[2]  # over the place first; its altitude is the ground's
     elif item.command == _m.MAV_CMD_NAV_LOITER_TURNS:
-        north, east = (came_n - aim_n)[:2].tolist()
-        bearing = math.atan2(east, north)  # from the centre itself to the north
-        aim_n[:2] += turn_radius(item) * np.array([math.cos(bearing), math.sin(bearing)])
+        return rim_of(aim_n, turn_radius(item), came_n)
     return aim_n
+
+
+def rim_of(centre_n: FloatArray, radius: float, came_n: FloatArray) -> FloatArray:
+    """The point of a circle that is nearest when one comes from a point; from the centre itself the northernmost."""
+    north, east = (came_n - centre_n)[:2].tolist()
+    bearing = math.atan2(east, north)
+    return centre_n + radius * np.array([math.cos(bearing), math.sin(bearing), 0.0])
+
+
+def ring_of(centre_n: FloatArray, radius: float) -> list[FloatArray]:
+    """Points of a circle, by which it is judged."""
+    angles = np.arange(RING) * (2.0 * math.pi / RING)
+    return [centre_n + radius * np.array([math.cos(a), math.sin(a), 0.0]) for a in angles.tolist()]
 
 
 def extent_of(item: PlanItem, places: Places, home_n: FloatArray) -> list[FloatArray]:
@@ -71,8 +82,7 @@ def extent_of(item: PlanItem, places: Places, home_n: FloatArray) -> list[FloatA
         return []
     if item.command != _m.MAV_CMD_NAV_LOITER_TURNS:
         return [place_n]
-    angles = np.arange(RING) * (2.0 * math.pi / RING)
-    return [place_n + turn_radius(item) * np.array([math.cos(a), math.sin(a), 0.0]) for a in angles.tolist()]
+    return ring_of(place_n, turn_radius(item))
 
 
 def stay_s(item: PlanItem) -> float:
