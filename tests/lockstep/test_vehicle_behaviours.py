@@ -13,7 +13,7 @@ from vehicle_pilot import ACCEPTED, HOLD, LAND, NAN, OFFBOARD, RTL, Pilot, posit
 
 from fakevehicle.config import LinkConfig, VehicleConfig
 from fakevehicle.faults import Fault, FaultKind, Sensor
-from fakevehicle.vehicle import Vehicle
+from fakevehicle.vehicle import TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray
 from wire.dialect import mavlink
 
@@ -147,6 +147,41 @@ def test_a_mission_goes_on_without_magnetometer_or_barometer(unit: int) -> None:
     assert from_home(pilot) < 2.0
     assert pilot.last("MISSION_CURRENT").mission_state == 5
     assert not any("Failsafe" in text for text in pilot.texts())
+
+
+@pytest.mark.parametrize("wind", [0.0, 8.0])
+def test_a_mission_flows_through_its_waypoints_within_their_radius_and_stops_where_it_should(wind: float) -> None:
+    pilot = ready(33, SIM_WIND_GUST=wind)
+    go = (0.0, 0.0, 0.0, NAN)
+    corners = ((20.0, 0.0), (20.0, 20.0), (0.0, 20.0))
+    upload(
+        pilot,
+        0,
+        (m.MAV_CMD_NAV_TAKEOFF, 6, go, (0, 0), 5.0),
+        *((m.MAV_CMD_NAV_WAYPOINT, 6, go, e7(*corner), 5.0) for corner in corners),
+        (m.MAV_CMD_NAV_WAYPOINT, 6, (1.0, 0.0, 0.0, NAN), e7(0.0, 0.0), 5.0),
+        (m.MAV_CMD_NAV_WAYPOINT, 6, go, e7(0.0, -5.0), 5.0),
+    )
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    way = []
+    while pilot.mode != HOLD or not way:
+        pilot.tick()
+        asked = pilot.vehicle.flying.navigator.course.setpoint(pilot.now_us - TICK_US)
+        way.append([*truth_n(pilot), *asked.velocity_n])
+        assert pilot.now_us < 90e6
+    flown = np.array(way)
+    flown = flown[np.argmax(flown[:, 2] < -4.9) :]  # from the top of its takeoff on
+    # THEN at each corner it is within a metre (and GPS's error of a few decimetres), and hardly slower than 2 m/s
+    for corner in corners:
+        away = np.linalg.norm(flown[:, :2] - corner, axis=1)
+        assert away.min() < 1.0 + 0.4
+        assert np.linalg.norm(flown[away < 3.0, 3:6], axis=1).min() > 1.5
+    # AND where it is to wait it stops
+    assert np.linalg.norm(flown[np.linalg.norm(flown[:, :2], axis=1) < 1.0, 3:6], axis=1).min() < 1e-6
+    # AND the velocity asked for never jumps: MPC_ACC_HOR is 3 m/s^2
+    assert np.linalg.norm(np.diff(flown[:, 3:6], axis=0), axis=1).max() <= 3.0 * TICK_US * 1e-6 + 1e-9
+    assert np.linalg.norm(flown[:, 3:5], axis=1).max() <= 5.0 + 1e-9
+    assert list(dict.fromkeys(reached.seq for reached in pilot.of("MISSION_ITEM_REACHED"))) == [0, 1, 2, 3, 4, 5]
 
 
 @pytest.mark.parametrize(("seconds", "holds"), [(1.0, True), (10.0, False)])
