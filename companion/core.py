@@ -26,17 +26,12 @@ from companion.itinerary import Itinerary
 from companion.mission import Mission
 from companion.offboard import setpoint_message
 from companion.phases import OVER, STREAMING, Event, Phase, after
-from companion.seam import Input, Level, Note, OperatorCommand, Output, PlanReady
+from companion.seam import Input, Level, Note, Order, Output, PlanReady
 from companion.telemetry import Telemetry
-from wire.datagram import Address, Datagram
+from companion.vehiclelink import AUTOPILOT_COMPONENT, VEHICLE_LINK, VehicleLink
+from wire.datagram import Datagram
 from wire.dialect import mavlink
-from wire.framing import Framer, Packet
 
-VEHICLE_LINK = "autopilot"
-"""The link toward the vehicle; every other link is a ground station's."""
-
-COMPONENT_ID = mavlink.MAV_COMP_ID_ONBOARD_COMPUTER
-AUTOPILOT_COMPONENT = mavlink.MAV_COMP_ID_AUTOPILOT1
 HEARTBEAT_US = 1_000_000
 VEHICLE_SILENT_US = 3_000_000
 POSITION_SILENT_US = 1_000_000
@@ -67,8 +62,7 @@ class Companion:
     ----------
     phase : where the flight is (`phases.Phase`).
     failure : why it is FAILED or HANDED_OVER, in one line; empty otherwise.
-    telemetry, itinerary : for progress lines; read only.
-    foreign_packets : packets of other systems on the vehicle's link, recorded but not obeyed.
+    link, telemetry, itinerary : for progress lines; read only.
     """
 
     TICK_US = 20_000  # 50 Hz
@@ -82,13 +76,7 @@ class Companion:
         self.itinerary = Itinerary(mission, config.seed)
         self.autopilot: Autopilot = Px4()
         self.origin_n = np.zeros(3)  # the mission frame's origin in the vehicle's local frame, fixed on the ground
-        self.foreign_packets = 0
-        self.framer = Framer()
-        self._vehicle: int | None = config.system_id
-        self._vehicle_peer: Address | None = None
-        self._heard_us: int | None = None
-        self._mav = mavlink.MAVLink(None)
-        self._sequence = 0
+        self.link = VehicleLink(config.system_id, config.speaks_first)
         self._started_us: int | None = None
         self._entered_us = 0
         self._streaming_us = 0
@@ -98,7 +86,6 @@ class Companion:
         self._queue: list[Command] = []
         self._land_asked = False
         self._plan_refusal = ""
-        self._impostor_told = False
         self._was_landing = False
         self._withheld = False
         self._readiness: tuple[str, ...] = ()
@@ -141,49 +128,25 @@ class Companion:
 
     def _take(self, now_us: int, item: Input, out: list[Output]) -> None:
         match item:
-            case Datagram(link=link, data=data, peer=peer) if link == VEHICLE_LINK:
-                for packet in self.framer.packets(data):
-                    self._hear(now_us, packet, peer, out)
+            case Datagram(link=link, data=data) if link == VEHICLE_LINK:
+                for packet in self.link.packets(now_us, item):
+                    self.telemetry.take(now_us, packet, self.link.decoder)
+                if self.link.impostor:
+                    out.append(Note(Level.WARNING, self.link.impostor))
+                    self.link.impostor = ""
                 out.extend(Datagram(ground, data) for ground in self.config.ground_links)
-            case Datagram(link=link, data=data) if link in self.config.ground_links and self._may_speak:
-                out.append(Datagram(VEHICLE_LINK, data, self._vehicle_peer))
+            case Datagram(link=link, data=data) if link in self.config.ground_links and self.link.may_speak:
+                out.append(Datagram(VEHICLE_LINK, data, self.link.peer))
             case PlanReady():
                 self._take_plan(item, out)
-            case OperatorCommand.LAND:
-                self._land_asked = True
+            case Order():
+                self._take_order(item, out)
 
-    def _hear(self, now_us: int, packet: Packet, peer: Address | None, out: list[Output]) -> None:
-        """Obey only the configured vehicle's autopilot, or the first autopilot that says it is one.
-
-        Its address is fixed by the first HEARTBEAT: whoever else uses the same system id from elsewhere is another.
-        """
-        if self._heard_us is None and self._is_autopilot(packet):
-            self._vehicle, self._vehicle_peer, self._heard_us = packet.system_id, peer, now_us
-        if not self.is_vehicle(packet, peer):
-            self.foreign_packets += 1
-            same_name = self._heard_us is not None and packet.system_id == self._vehicle
-            if same_name and peer != self._vehicle_peer and not self._impostor_told:
-                self._impostor_told = True
-                where = "elsewhere" if peer is None else f"{peer[0]}:{peer[1]}"
-                text = f"another sender at {where} also calls itself system {self._vehicle}: it is not obeyed"
-                out.append(Note(Level.WARNING, text))
-            return
-        self._heard_us = now_us
-        self.telemetry.take(now_us, packet, self._mav)
-
-    def is_vehicle(self, packet: Packet, peer: Address | None) -> bool:
-        """Whether a packet is from the autopilot that is obeyed."""
-        known = self._heard_us is not None and peer == self._vehicle_peer
-        return known and packet.system_id == self._vehicle and packet.component_id == AUTOPILOT_COMPONENT
-
-    def _is_autopilot(self, packet: Packet) -> bool:
-        """Whether a packet is a HEARTBEAT of an autopilot that may be obeyed."""
-        if packet.message_id != mavlink.MAVLINK_MSG_ID_HEARTBEAT or packet.component_id != AUTOPILOT_COMPONENT:
-            return False
-        heartbeat = self._mav.decode(bytearray(packet.raw))
-        return packet.system_id == (self._vehicle or packet.system_id) and (
-            heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID
-        )
+    def _take_order(self, order: Order, out: list[Output]) -> None:
+        if order.name == "land":
+            self._land_asked = True
+        else:
+            out.append(Note(Level.WARNING, f"{order.name}: not an order that can be carried out"))
 
     def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
         if self.phase is not Phase.PLANNING or not self.itinerary.wants(ready.request_id):
@@ -215,8 +178,8 @@ class Companion:
 
     def _event(self, now_us: int, out: list[Output]) -> Event | None:
         """The one event of this tick, most urgent first."""
-        if self._heard_us is not None and now_us - self._heard_us > VEHICLE_SILENT_US:
-            self._blame(f"nothing heard from the vehicle for {(now_us - self._heard_us) / 1e6:.1f} s")
+        if self.link.heard_us is not None and now_us - self.link.heard_us > VEHICLE_SILENT_US:
+            self._blame(f"nothing heard from the vehicle for {(now_us - self.link.heard_us) / 1e6:.1f} s")
             return Event.VEHICLE_SILENT
         if self._land_asked and self.phase is not Phase.LANDING:
             self._land_asked = False
@@ -345,7 +308,7 @@ class Companion:
         if self.phase is before:
             return
         if before is Phase.ARMING and self.phase is Phase.FAILED and event in (Event.LAND_ASKED, Event.REFUSED):
-            out.append(self._packet(self.autopilot.disarm().message(self._target)))  # it may arm after all
+            out.append(self.link.pack(self.autopilot.disarm().message(self.link.target)))  # it may arm after all
         self._entered_us, self._command = now_us, None
         bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
         text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
@@ -378,26 +341,28 @@ class Companion:
         if self.phase is Phase.ENGAGING and self._command is None and streamed:
             self._command = self.autopilot.take_control()
         if self._command is not None and self._command.due(now_us):
-            out.append(self._packet(self._command.message(self._target)))
+            out.append(self.link.pack(self._command.message(self.link.target)))
 
     def _read_parameters(self, out: list[Output]) -> None:
         for name in self.telemetry.parameters:
-            request = mavlink.MAVLink_param_request_read_message(self._target, AUTOPILOT_COMPONENT, name.encode(), -1)
-            out.append(self._packet(request))
+            request = mavlink.MAVLink_param_request_read_message(
+                self.link.target, AUTOPILOT_COMPONENT, name.encode(), -1
+            )
+            out.append(self.link.pack(request))
 
     # ---- 4. streams ---------------------------------------------------------------------------------------------
 
     def _stream(self, now_us: int, out: list[Output]) -> None:
-        if self._may_speak and now_us >= self._heartbeat_due_us:
+        if self.link.may_speak and now_us >= self._heartbeat_due_us:
             self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
-            beat = self._packet(self._heartbeat())
+            beat = self.link.pack(self._heartbeat())
             out.append(beat)
             out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if self.phase not in STREAMING or self._was_landing:
             return
         reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
-        message = setpoint_message(reference, self.origin_n, time_boot_ms, self._target)
+        message = setpoint_message(reference, self.origin_n, time_boot_ms, self.link.target)
         if message is None:
             if not self._withheld:
                 out.append(Note(Level.ERROR, "the setpoint is not a place to fly to: none is sent"))
@@ -405,28 +370,12 @@ class Companion:
             return
         self._withheld = False
         out.append(reference)
-        out.append(self._packet(message))
+        out.append(self.link.pack(message))
 
     def _heartbeat(self) -> Any:
         state = mavlink.MAV_STATE_ACTIVE if self.phase in STREAMING else mavlink.MAV_STATE_STANDBY
         kind = mavlink.MAV_TYPE_ONBOARD_CONTROLLER
         return mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)
-
-    @property
-    def _may_speak(self) -> bool:
-        """Whether there is somebody to speak to: the vehicle was heard, or it waits to be called."""
-        return self._heard_us is not None or self.config.speaks_first
-
-    @property
-    def _target(self) -> int:
-        return self._vehicle or 0
-
-    def _packet(self, message: Any) -> Datagram:
-        """One message to the vehicle, from its own system id and our component."""
-        self._mav.srcSystem, self._mav.srcComponent = self._vehicle or 1, COMPONENT_ID
-        self._mav.seq = self._sequence
-        self._sequence = (self._sequence + 1) & 0xFF
-        return Datagram(VEHICLE_LINK, bytes(message.pack(self._mav)), self._vehicle_peer)
 
 
 WATCH: dict[Phase, Callable[[Companion, int, list[Output]], Event | None]] = {

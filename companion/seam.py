@@ -1,8 +1,10 @@
 """What crosses the seam of `Companion.step`: its inputs and outputs.
 
-In:  `Datagram | PlanReady | OperatorCommand`.  Out: `Datagram | PlanWanted | Reference | Note`.
+In:  `Datagram | PlanReady | ReplanReady | Order`.  Out: `Datagram | PlanWanted | ReplanWanted | Reference | Note`.
 Slow work is an output and an input: `PlanWanted` leaves, a driver plans wherever it likes, `PlanReady` comes back and
-is recorded, so that a re-run feeds the recorded plan and never plans again.
+is recorded, so that a re-run feeds the recorded plan and never plans again. `ReplanWanted` and `ReplanReady` are the
+same for a flight under way: the question names the moment from which its answer will be flown, so that what planning
+takes is part of the plan.
 """
 
 from dataclasses import dataclass
@@ -11,7 +13,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from planner import Limits, Trajectory
+from planner import Limits, MovingSphere, Trajectory
 from wire.datagram import Datagram
 
 FloatArray = NDArray[np.float64]
@@ -37,6 +39,9 @@ class PlanWanted:
     radius: float  # [m] the curve keeps this far from every obstacle
     seed: int
     method: str
+    via_m: tuple[Vector, ...] = ()  # points on the way
+    start_velocity: Vector = (0.0, 0.0, 0.0)  # [m/s]
+    start_acceleration: Vector = (0.0, 0.0, 0.0)  # [m/s^2]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,10 +59,70 @@ class PlanReady:
     method: str = ""
 
 
-class OperatorCommand(Enum):
-    """What the person at the keyboard asks for."""
+@dataclass(frozen=True, slots=True)
+class Flown:
+    """A trajectory and when it begins, in the mission frame."""
 
-    LAND = "land"
+    trajectory: Trajectory
+    start_us: int  # on the flight clock [us]
+    to_goal: bool = True  # else to a stop
+
+
+@dataclass(frozen=True, slots=True)
+class MapView:
+    """The cells that are taken, as upright runs; what is known beforehand is not among them."""
+
+    origin: Vector  # corner of cell (0, 0, 0) [m]
+    resolution: float  # edge of a cell [m]
+    runs: NDArray[np.int16]  # (n, 4) i, j, first k, one past the last k
+    version: int  # counts changes
+
+
+@dataclass(frozen=True, slots=True)
+class ReplanWanted:
+    """Please look at what is flown again, in the mission frame; times are the flight clock's."""
+
+    request_id: int
+    now_us: int
+    switch_us: int  # the answer is flown from then on
+    period_us: int  # the next question's switch comes so much later; the answer's backup begins there
+    goal_m: Vector
+    limits: Limits
+    radius: float  # [m] kept from every obstacle and mover
+    seed: int
+    flown: Flown
+    fresh: bool  # begin anew with `flown`; else it is what the answer before said
+    map: MapView | None  # None: as in the question before
+    movers: tuple[MovingSphere, ...]  # stamps in seconds of the flight clock
+
+
+@dataclass(frozen=True, slots=True)
+class ReplanReady:
+    """What to fly from the question's `switch_us` on."""
+
+    request_id: int
+    kind: str  # keep, switch, backup or none, as `planner.replan.Kind`; failed: no answer, `reason` says why
+    flown: Flown | None  # None: what was flown, and when there is no answer
+    certified: bool
+    clearance: float  # to the nearest mover, less the radius [m]; inf without any
+    backup: Flown | None  # a proved stop from the next question's switch on
+    reason: str
+    cpu_ms: float = float("nan")
+
+
+ORDERS = ("land", "hold", "resume", "return", "abort", "start", "goto")
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What a person asks for: at the keyboard, or from a ground station.
+
+    `goto` has the values north, east, altitude [m] in the mission frame; the others have none.
+    """
+
+    name: str  # one of ORDERS
+    values: tuple[float, ...] = ()
+    source: str = ""  # who, for people
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,5 +143,5 @@ class Note:
     text: str
 
 
-Input = Datagram | PlanReady | OperatorCommand
-Output = Datagram | PlanWanted | Reference | Note
+Input = Datagram | PlanReady | ReplanReady | Order
+Output = Datagram | PlanWanted | ReplanWanted | Reference | Note

@@ -14,13 +14,14 @@ from typing import Any
 
 import numpy as np
 
-from companion.core import VEHICLE_LINK, Companion
+from companion.core import Companion
 from companion.drivers.tick import Tick
 from companion.fields import local_position_ned, truth_position
 from companion.geodesy import local_ned
 from companion.mission import Mission
 from companion.phases import Phase
 from companion.seam import FloatArray, Reference
+from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 from wire.framing import Framer
@@ -87,7 +88,7 @@ class FlightMeter:
         if _is_one_packet(item.data) and item.data[7:10] not in (TRUTH_ID, ESTIMATE_ID):
             return  # nine datagrams in ten, at a tenth of the price of framing them
         for packet in self._framer.packets(item.data):
-            if not self._companion.is_vehicle(packet, item.peer):
+            if not self._companion.link.is_vehicle(packet, item.peer):
                 continue
             if packet.message_id == ESTIMATE:
                 position = local_position_ned(packet.payload)[:3]

@@ -47,6 +47,7 @@ class PlanWanted:
     radius: float = 0.0  # [m]
     seed: int = 0
     method: str = ""
+    via: tuple[float, ...] = ()  # (3 n,) points on the way [m]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +69,11 @@ class PlanReady:
 
 @dataclass(frozen=True, slots=True)
 class OperatorCommand:
-    """Input: what the person at the keyboard asked for."""
+    """Input: what a person asked for, at the keyboard or from a ground station."""
 
     name: str
+    values: tuple[float, ...] = ()
+    source: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,12 +110,66 @@ class Truth:
     on_ground: bool = False
 
 
-Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference | Truth
+@dataclass(frozen=True, slots=True)
+class ReplanWanted:
+    """Output: look at what is flown again; times are the flight clock's. The map is kept by its checksum only."""
+
+    request_id: int
+    now_us: int
+    switch_us: int  # the answer is flown from then on
+    period_us: int
+    goal: tuple[float, ...]  # (3,) [m]
+    speed: float  # [m/s] limit
+    acceleration: float  # [m/s^2] limit
+    jerk: float  # [m/s^3] limit
+    radius: float  # [m]
+    seed: int
+    control_points: tuple[float, ...]  # (3 n,) of what is flown [m]
+    knots: tuple[float, ...]  # (n + 4,) [s]
+    start_us: int
+    to_goal: bool
+    fresh: bool
+    map_version: int = -1  # -1: the map is what it was
+    map_crc32: int = 0
+    map_runs: int = 0
+    movers: tuple[float, ...] = ()  # (10 k,) centre, velocity, radius, growth, stamp, until each
+
+
+@dataclass(frozen=True, slots=True)
+class ReplanReady:
+    """Input: the answer to one `ReplanWanted`; no knots: what was flown goes on, or there is no stop."""
+
+    request_id: int
+    kind: str
+    control_points: tuple[float, ...] = ()  # (3 n,) [m]
+    knots: tuple[float, ...] = ()  # (n + 4,) [s]
+    start_us: int = 0
+    to_goal: bool = False
+    certified: bool = False
+    clearance: float = 0.0  # [m]
+    backup_control_points: tuple[float, ...] = ()
+    backup_knots: tuple[float, ...] = ()
+    backup_start_us: int = 0
+    reason: str = ""
+    cpu_ms: float = 0.0
+
+
+Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference | Truth | ReplanWanted | ReplanReady
 RecordT = TypeVar("RecordT", bound=Record)
 
-RECORDS: tuple[type[Record], ...] = (Tick, PlanWanted, PlanReady, OperatorCommand, Note, Reference, Truth)
-INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand)
-OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference)
+RECORDS: tuple[type[Record], ...] = (
+    Tick,
+    PlanWanted,
+    PlanReady,
+    OperatorCommand,
+    Note,
+    Reference,
+    Truth,
+    ReplanWanted,
+    ReplanReady,
+)
+INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand, ReplanReady)
+OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference, ReplanWanted)
 
 TOPICS: dict[type[Record], str] = {
     Tick: "/companion/tick",
@@ -122,6 +179,8 @@ TOPICS: dict[type[Record], str] = {
     Note: "/companion/note",
     Reference: "/companion/reference",
     Truth: "/vehicle/truth",
+    ReplanWanted: "/companion/replan_wanted",
+    ReplanReady: "/companion/replan_ready",
 }
 """Where each record is kept, unless a driver says otherwise."""
 

@@ -13,7 +13,7 @@ from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap, Tick
 from companion.missionfile import parse_mission
-from companion.seam import Note, OperatorCommand
+from companion.seam import Note, Order
 from companion.verdict import FlightMeter, Verdict, judge
 from logs.recorder import Recorder
 
@@ -56,7 +56,7 @@ def fly() -> Callable[..., Flight]:
         seed: int = 1,
         record: Path | None = None,
         limit_s: float = 120.0,
-        operator: Callable[[Companion, int], OperatorCommand | None] = lambda companion, now_us: None,
+        operator: Callable[[Companion, int], Order | None] = lambda companion, now_us: None,
         between: Callable[[VehicleCore], VehicleCore] = lambda vehicle: vehicle,
         taps: Sequence[Tap] = (),
     ) -> Flight:

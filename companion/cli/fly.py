@@ -16,7 +16,7 @@ from rich.console import Console
 
 from companion.cli import show
 from companion.cli.operator import STOPPED, Operator
-from companion.core import VEHICLE_LINK, Companion, CompanionConfig
+from companion.core import Companion, CompanionConfig
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
 from companion.drivers.recording import RecordingTap, header, total
@@ -24,6 +24,7 @@ from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
+from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
 from logs.errors import RecordingError
 from logs.recorder import Recorder
@@ -131,7 +132,7 @@ def _fly(
     losses = {
         "kernel_drops": kernel_drops,
         "recorder_drops": counters.dropped_raw + counters.dropped_decoded,
-        "sequence_gaps": sum(s.lost for s in companion.framer.senders.values()),
+        "sequence_gaps": sum(s.lost for s in companion.link.framer.senders.values()),
         "late_ticks": pace.late,
         "missed_ticks": pace.missed,
     }

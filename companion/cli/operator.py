@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from companion.seam import OperatorCommand
+from companion.seam import Order
 
 STOPPED = "stopped by the operator without landing"
 
@@ -31,11 +31,11 @@ class Operator:
             for number, handler in before.items():
                 signal.signal(number, handler)
 
-    def __call__(self, now_us: int) -> OperatorCommand | None:
+    def __call__(self, now_us: int) -> Order | None:
         if self.asked == 0 or self._told:
             return None
         self._told = 1
-        return OperatorCommand.LAND
+        return Order("land")
 
     def stop(self) -> bool:
         return self.asked > 1

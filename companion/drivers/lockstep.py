@@ -3,10 +3,11 @@
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from companion.core import VEHICLE_LINK, Companion
+from companion.core import Companion
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
-from companion.seam import Input, OperatorCommand, PlanWanted
+from companion.seam import Input, Order, PlanWanted
+from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Address, Datagram
 
 VEHICLE_ADDRESS: Address = ("vehicle", 0)
@@ -29,7 +30,7 @@ def fly_lockstep(
     taps: Sequence[Tap],
     *,
     limit_s: float,
-    operator: Callable[[int], OperatorCommand | None] = lambda now_us: None,
+    operator: Callable[[int], Order | None] = lambda now_us: None,
     stop: Callable[[], bool] = lambda: False,
 ) -> int:
     """Fly until the companion is done, `limit_s` of simulated time have passed, or `stop` says so.

@@ -34,6 +34,9 @@ def make_plan(world: World, wanted: PlanWanted) -> Plan:
         radius=wanted.radius,
         seed=wanted.seed,
         method=wanted.method,
+        via=wanted.via_m,
+        start_velocity=wanted.start_velocity,
+        start_acceleration=wanted.start_acceleration,
     )
 
 

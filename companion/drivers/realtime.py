@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from companion.core import Companion
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
-from companion.seam import Input, OperatorCommand, PlanWanted
+from companion.seam import Input, Order, PlanWanted
 from wire.datagram import Datagram
 from wire.udp import UdpLink, wait
 
@@ -32,7 +32,7 @@ def fly_realtime(
     planning: Planning,
     taps: Sequence[Tap],
     *,
-    operator: Callable[[int], OperatorCommand | None],
+    operator: Callable[[int], Order | None],
     stop: Callable[[], bool] = lambda: False,
 ) -> Pace:
     """Fly until the companion is done or `stop` says so (asked once a tick)."""

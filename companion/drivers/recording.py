@@ -8,12 +8,24 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
 from companion.core import Companion
 from companion.drivers.tick import Tick
-from companion.seam import Input, Note, OperatorCommand, Output, PlanReady, PlanWanted, Reference
+from companion.seam import (
+    Flown,
+    Input,
+    Note,
+    Order,
+    Output,
+    PlanReady,
+    PlanWanted,
+    Reference,
+    ReplanReady,
+    ReplanWanted,
+)
 from logs import schema
 from logs.compare import Output as Compared
 from logs.compare import OutputHash
@@ -25,6 +37,7 @@ from wire.datagram import Datagram
 
 MISSION_ATTACHMENT = "mission.yaml"
 CONFIG_METADATA = "companion.config"
+_STILL = (0.0, 0.0, 0.0)
 
 
 def to_record(item: Input | Output, phase: str) -> schema.Record:
@@ -32,6 +45,7 @@ def to_record(item: Input | Output, phase: str) -> schema.Record:
     match item:
         case PlanWanted():
             limits = item.limits
+            moving = item.start_velocity != _STILL or item.start_acceleration != _STILL
             return schema.PlanWanted(
                 request_id=item.request_id,
                 start=tuple(item.start_m),
@@ -42,6 +56,9 @@ def to_record(item: Input | Output, phase: str) -> schema.Record:
                 radius=item.radius,
                 seed=item.seed,
                 method=item.method,
+                start_velocity=item.start_velocity if moving else (),
+                start_acceleration=item.start_acceleration if moving else (),
+                via=tuple(x for point in item.via_m for x in point),
             )
         case PlanReady():
             trajectory = item.trajectory
@@ -58,8 +75,28 @@ def to_record(item: Input | Output, phase: str) -> schema.Record:
                 cpu_ms=item.cpu_ms,
                 method=item.method,
             )
-        case OperatorCommand():
-            return schema.OperatorCommand(name=item.value)
+        case ReplanWanted():
+            return _replan_wanted(item)
+        case ReplanReady():
+            points, knots, start_us = _flat(item.flown)
+            backup_points, backup_knots, backup_start_us = _flat(item.backup)
+            return schema.ReplanReady(
+                request_id=item.request_id,
+                kind=item.kind,
+                control_points=points,
+                knots=knots,
+                start_us=start_us,
+                to_goal=item.flown is not None and item.flown.to_goal,
+                certified=item.certified,
+                clearance=item.clearance,
+                backup_control_points=backup_points,
+                backup_knots=backup_knots,
+                backup_start_us=backup_start_us,
+                reason=item.reason,
+                cpu_ms=item.cpu_ms,
+            )
+        case Order():
+            return schema.OperatorCommand(name=item.name, values=item.values, source=item.source)
         case Note():
             return schema.Note(level=item.level.value, phase=phase, text=item.text)
         case Reference():
@@ -78,10 +115,7 @@ def to_input(record: schema.Record) -> Input | None:
     """The input that a record kept; None for a record of an output or a tick."""
     match record:
         case schema.PlanReady():
-            trajectory = None
-            if record.ok:
-                points = np.array(record.control_points, dtype=np.float64).reshape(-1, 3)
-                trajectory = Trajectory(points, np.array(record.knots, dtype=np.float64))
+            trajectory = _trajectory(record.control_points, record.knots) if record.ok else None
             return PlanReady(
                 request_id=record.request_id,
                 trajectory=trajectory,
@@ -93,9 +127,64 @@ def to_input(record: schema.Record) -> Input | None:
                 cpu_ms=record.cpu_ms,
                 method=record.method,
             )
+        case schema.ReplanReady():
+            return ReplanReady(
+                request_id=record.request_id,
+                kind=record.kind,
+                flown=_flown(record.control_points, record.knots, record.start_us, record.to_goal),
+                certified=record.certified,
+                clearance=record.clearance,
+                backup=_flown(record.backup_control_points, record.backup_knots, record.backup_start_us, False),
+                reason=record.reason,
+                cpu_ms=record.cpu_ms,
+            )
         case schema.OperatorCommand():
-            return OperatorCommand(record.name)
+            return Order(record.name, record.values, record.source)
     return None
+
+
+def _replan_wanted(item: ReplanWanted) -> schema.ReplanWanted:
+    points, knots, start_us = _flat(item.flown)
+    limits, seen = item.limits, item.map
+    return schema.ReplanWanted(
+        request_id=item.request_id,
+        now_us=item.now_us,
+        switch_us=item.switch_us,
+        period_us=item.period_us,
+        goal=tuple(item.goal_m),
+        speed=limits.speed,
+        acceleration=limits.acceleration,
+        jerk=limits.jerk,
+        radius=item.radius,
+        seed=item.seed,
+        control_points=points,
+        knots=knots,
+        start_us=start_us,
+        to_goal=item.flown.to_goal,
+        fresh=item.fresh,
+        map_version=-1 if seen is None else seen.version,
+        map_crc32=0 if seen is None else crc32(np.ascontiguousarray(seen.runs).tobytes()),
+        map_runs=0 if seen is None else len(seen.runs),
+        movers=tuple(
+            number for m in item.movers for number in (*m.centre, *m.velocity, m.radius, m.growth, m.stamp, m.until)
+        ),
+    )
+
+
+def _flat(flown: Flown | None) -> tuple[tuple[float, ...], tuple[float, ...], int]:
+    """Control points, knots and start as records keep them; empty for nothing."""
+    if flown is None:
+        return (), (), 0
+    trajectory = flown.trajectory
+    return tuple(trajectory.control_points.ravel().tolist()), tuple(trajectory.knots.tolist()), flown.start_us
+
+
+def _flown(points: tuple[float, ...], knots: tuple[float, ...], start_us: int, to_goal: bool) -> Flown | None:
+    return Flown(_trajectory(points, knots), start_us, to_goal) if knots else None
+
+
+def _trajectory(points: tuple[float, ...], knots: tuple[float, ...]) -> Trajectory:
+    return Trajectory(np.array(points, dtype=np.float64).reshape(-1, 3), np.array(knots, dtype=np.float64))
 
 
 def header(companion: Companion, mission_file: bytes, **more: Mapping[str, str]) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from companion.phases import Phase
-from companion.seam import OperatorCommand, Reference
+from companion.seam import Order, Reference
 from tests.conftest import HOP
 from wire.datagram import Datagram
 from wire.dialect import mavlink
@@ -83,7 +83,7 @@ def test_an_operator_who_asks_for_land_in_flight_gets_a_landing_and_a_failed_ver
     def operator(companion, now_us):
         if companion.phase is Phase.FLYING and companion.itinerary.step.kind == "goto" and not asked:
             asked.append(now_us)
-            return OperatorCommand.LAND
+            return Order("land")
         return None
 
     flight = fly(operator=operator)
@@ -188,7 +188,7 @@ def test_a_flight_without_position_lands(fly):
 
 
 def test_land_asked_while_arming_disarms(fly):
-    flight = fly(operator=lambda companion, now_us: OperatorCommand.LAND if companion.phase is Phase.ARMING else None)
+    flight = fly(operator=lambda companion, now_us: Order("land") if companion.phase is Phase.ARMING else None)
     assert flight.companion.phase is Phase.FAILED
     mav = mavlink.MAVLink(None)
     last = mav.decode(bytearray(sent(flight, mavlink.MAVLINK_MSG_ID_COMMAND_LONG)[-1][1].raw))

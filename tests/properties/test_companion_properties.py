@@ -4,11 +4,12 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from companion.core import VEHICLE_LINK, Companion, CompanionConfig
+from companion.core import Companion, CompanionConfig
 from companion.itinerary import Itinerary
 from companion.missionfile import load_mission
 from companion.phases import Phase
-from companion.seam import Note, OperatorCommand, PlanReady, Reference
+from companion.seam import Note, Order, PlanReady, Reference
+from companion.vehiclelink import VEHICLE_LINK
 from planner import Trajectory
 from wire.datagram import Datagram
 from wire.dialect import mavlink
@@ -51,7 +52,7 @@ datagram = st.builds(
     st.one_of(st.binary(max_size=300), well_formed, mangled),
 )
 refusal = st.builds(PlanReady, st.integers(-1, 9), st.none(), st.text(max_size=20), st.text(max_size=20))
-tick = st.lists(st.one_of(datagram, refusal, st.just(OperatorCommand.LAND)), max_size=5)
+tick = st.lists(st.one_of(datagram, refusal, st.just(Order("land"))), max_size=5)
 
 
 @settings(max_examples=150, deadline=None)
@@ -95,4 +96,4 @@ def test_another_vehicle_than_the_configured_one_is_not_obeyed_whatever_it_says(
         out = companion.step(k * 20_000, [Datagram(VEHICLE_LINK, item)])
         assert not [o for o in out if isinstance(o, Note)]
     assert companion.phase is Phase.CONNECTING
-    assert companion.foreign_packets == len(data)
+    assert companion.link.foreign_packets == len(data)

@@ -6,11 +6,12 @@ import sys
 import numpy as np
 import pytest
 
-from companion.core import VEHICLE_LINK, Companion, CompanionConfig
+from companion.core import Companion, CompanionConfig
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
 from companion.missionfile import parse_mission
 from companion.seam import PlanReady, PlanWanted
+from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
 from tests.conftest import HOP
 from wire.endpoint import Endpoint

@@ -2,9 +2,10 @@
 
 import math
 
-from companion.core import VEHICLE_LINK, Companion, CompanionConfig
+from companion.core import Companion, CompanionConfig
 from companion.missionfile import load_mission
 from companion.seam import Note
+from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -38,7 +39,7 @@ def test_the_first_autopilot_heard_is_the_vehicle_and_its_address_is_the_only_on
     told = "another sender at 127.0.0.1:2002 also calls itself system 1: it is not obeyed"
     assert notes(first).count(told) == 1
     assert told not in notes(second)
-    assert companion.foreign_packets == 3
+    assert companion.link.foreign_packets == 3
 
 
 def test_a_ground_station_a_companion_and_another_system_are_not_the_vehicle():

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from companion.core import VEHICLE_LINK, Companion, CompanionConfig
+from companion.core import Companion, CompanionConfig
 from companion.drivers.tick import Tick
 from companion.missionfile import parse_mission
 from companion.phases import Phase
 from companion.seam import Reference
+from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, failed_expectations, judge, least_clearance
 from wire.datagram import Datagram
 from wire.dialect import mavlink

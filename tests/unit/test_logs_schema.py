@@ -17,7 +17,7 @@ def test_every_record_comes_back_as_it_was() -> None:
         schema.PlanReady(
             request_id=1, ok=True, control_points=(0.1,) * 30, knots=(0.0, 1 / 3), certified=True, cpu_ms=0.7
         ),
-        schema.OperatorCommand(name="land"),
+        schema.OperatorCommand(name="goto", values=(1.0, -2.5, 3.0), source="255/190"),
         schema.Note(level=4, phase="FLYING", text="späte Antwort"),
         schema.Reference(phase="", position=(1.0, 2.0, 3.0), velocity=(), acceleration=(0.1,), yaw=-3.0),
         schema.Truth(
@@ -30,6 +30,27 @@ def test_every_record_comes_back_as_it_was() -> None:
             wind_n=(8.0, 0.0, 0.0),
             on_ground=True,
         ),
+        schema.ReplanWanted(
+            request_id=7,
+            now_us=1_000_000,
+            switch_us=1_100_000,
+            period_us=100_000,
+            goal=(1.0, 2.0, -3.0),
+            speed=3.0,
+            acceleration=6.0,
+            jerk=60.0,
+            radius=0.45,
+            seed=1,
+            control_points=(0.5,) * 12,
+            knots=(0.0,) * 8,
+            start_us=900_000,
+            to_goal=True,
+            fresh=False,
+            map_version=3,
+            map_crc32=0xDEADBEEF,
+            movers=(0.1,) * 9 + (math.inf,),
+        ),
+        schema.ReplanReady(request_id=7, kind="keep", certified=True, clearance=math.inf, backup_knots=(0.0, 1.0)),
     ]
     assert {type(record) for record in records} == set(schema.RECORDS)
     for record in records:
