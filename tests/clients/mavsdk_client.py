@@ -1,4 +1,7 @@
-"""MAVSDK's asyncio API (package mavsdk-grpc) against the vehicle's process: both end with the test."""
+"""MAVSDK's asyncio API (package mavsdk-grpc) against the vehicle's process: both end with the test.
+
+`make test-clients` flies the same tests once more with what that API was before, `mavsdk<4`, under the present name.
+"""
 
 import asyncio
 import os
@@ -72,6 +75,12 @@ async def last(stream: AsyncIterator[T], seconds: float = 30.0) -> T:
         return newest[0]
 
     return await asyncio.wait_for(exhaust(), seconds)
+
+
+async def listed(system: Any, folder: str) -> list[str]:
+    """The names in a folder of the vehicle's; `mavsdk<4` tells folders from files."""
+    found = await system.ftp.list_directory(folder)
+    return [entry.name for entry in found.entries] if hasattr(found, "entries") else [*found.dirs, *found.files]
 
 
 async def ready(system: Any) -> None:
