@@ -75,7 +75,9 @@ class CommandKind:
     ----------
     title : for people.
     place : whether parameters 5, 6 and 7 are a place.
-    limits : lowest and highest value by parameter number; NaN stands for not given and is always allowed.
+    limits : lowest and highest value by parameter number; NaN stands for not given.
+    needed : parameters that have to be given; of the others NaN is always allowed.
+    whole : parameters that count something.
     lacking : what this vehicle would need for it; None: it does it. Such items are kept, told of and passed over, as
         PX4 and ArduPilot do without the device.
     """
@@ -84,6 +86,8 @@ class CommandKind:
     place: bool
     limits: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     lacking: str | None = None
+    needed: tuple[int, ...] = ()
+    whole: tuple[int, ...] = ()
 
 
 _SECONDS = (0.0, 86_400.0)
@@ -126,7 +130,9 @@ COMMANDS: Mapping[Kind, Mapping[int, CommandKind]] = {
         _m.MAV_CMD_NAV_DELAY: CommandKind("delay", False, {1: (-1.0, 86_400.0)}),
         _m.MAV_CMD_CONDITION_DELAY: CommandKind("delay", False, {1: _SECONDS}),
         _m.MAV_CMD_CONDITION_YAW: CommandKind("turn", False, {1: (-360.0, 360.0), 4: (0.0, 1.0)}),
-        _m.MAV_CMD_DO_JUMP: CommandKind("jump", False, {1: (0.0, MAX_ITEMS), 2: (-1.0, 65_535.0)}),
+        _m.MAV_CMD_DO_JUMP: CommandKind(
+            "jump", False, {1: (0.0, MAX_ITEMS), 2: (-1.0, 65_535.0)}, needed=(1, 2), whole=(1, 2)
+        ),
         _m.MAV_CMD_DO_CHANGE_SPEED: CommandKind("speed", False, {1: (0.0, 3.0), 2: (-2.0, 30.0)}),
         _m.MAV_CMD_DO_SET_ROI: CommandKind("place to look at", False, {1: (0.0, 4.0)}),
         _m.MAV_CMD_DO_SET_ROI_LOCATION: CommandKind("place to look at", True),
@@ -137,8 +143,8 @@ COMMANDS: Mapping[Kind, Mapping[int, CommandKind]] = {
     Kind.FENCE: {
         _m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION: CommandKind("inclusion vertex", True, {1: (3.0, MAX_ITEMS)}),
         _m.MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION: CommandKind("exclusion vertex", True, {1: (3.0, MAX_ITEMS)}),
-        _m.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION: CommandKind("inclusion circle", True, {1: (0.1, FARTHEST)}),
-        _m.MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION: CommandKind("exclusion circle", True, {1: (0.1, FARTHEST)}),
+        _m.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION: CommandKind("inclusion circle", True, {1: (0.1, FARTHEST)}, needed=(1,)),
+        _m.MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION: CommandKind("exclusion circle", True, {1: (0.1, FARTHEST)}, needed=(1,)),
     },
     Kind.RALLY: {_m.MAV_CMD_NAV_RALLY_POINT: CommandKind("rally point", True)},
 }
@@ -151,6 +157,13 @@ def item_flaw(kind: Kind, item: PlanItem) -> Flaw | None:
         return Flaw(_m.MAV_MISSION_UNSUPPORTED, f"command {item.command} is not known here")
     if row.place and item.frame not in GLOBAL_FRAMES + RELATIVE_FRAMES:
         return Flaw(_m.MAV_MISSION_UNSUPPORTED_FRAME, f"{row.title} in frame {item.frame}, expected 0, 3, 5 or 6")
+    for number, value in enumerate(item.params, start=1):
+        if math.isinf(value):
+            return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected a finite number")
+        if number in row.needed and math.isnan(value):
+            return Flaw(_param(number), f"{row.title}: param{number} is not given")
+        if number in row.whole and value != math.floor(value):
+            return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected a whole number")
     for number, (low, high) in row.limits.items():
         value = item.params[number - 1]
         if not (math.isnan(value) or low <= value <= high):
@@ -180,14 +193,57 @@ def _roi_flaw(item: PlanItem) -> Flaw | None:
     return None
 
 
-def plan_flaw(kind: Kind, items: Sequence[PlanItem]) -> Flaw | None:
-    """What is wrong with a whole plan whose items are each right; None when nothing is."""
+def plan_flaw(kind: Kind, items: Sequence[PlanItem], first: int = 0) -> Flaw | None:
+    """What is wrong with a whole plan whose items are each right; None when nothing is.
+
+    `first` is the number that people give to the first item.
+    """
     if kind is Kind.FENCE:
         return _polygons_flaw(items)
     for item in items:
         if item.command == _m.MAV_CMD_DO_JUMP and not 0 <= item.params[0] < len(items):
-            return Flaw(_param(1), f"jump to item {item.params[0]:g} of {len(items)}")
+            last = first + len(items) - 1
+            return Flaw(_param(1), f"jump to item {item.params[0] + first:g}, expected {first}..{last}")
+    ring = _endless(items)
+    if ring is not None:
+        return Flaw(_param(1), f"the jump at item {ring + first} leads back to itself and to no place on the way")
     return None
+
+
+def _endless(items: Sequence[PlanItem]) -> int | None:
+    """A jump that lies on a ring of items none of which takes time; None without one.
+
+    Items that wait for no other are taken away until none is left (Kahn, 1962); what stays hangs behind a ring.
+    """
+    leads: dict[int, tuple[int, ...]] = {}
+    for i, item in enumerate(items):
+        if item.command < _m.MAV_CMD_NAV_LAST or item.command == _m.MAV_CMD_CONDITION_DELAY:
+            continue  # to go somewhere, or to wait
+        jumps = item.command == _m.MAV_CMD_DO_JUMP and item.params[1] != 0.0
+        leads[i] = (i + 1, int(item.params[0])) if jumps else (i + 1,)
+    waiting = dict.fromkeys(leads, 0)
+    for targets in leads.values():
+        for target in targets:
+            if target in waiting:
+                waiting[target] += 1
+    free = [i for i, count in waiting.items() if count == 0]
+    while free:
+        i = free.pop()
+        del waiting[i]
+        for target in leads[i]:
+            if target in waiting:
+                waiting[target] -= 1
+                if waiting[target] == 0:
+                    free.append(target)
+    return next((i for i in waiting if items[i].command == _m.MAV_CMD_DO_JUMP), None)
+
+
+def renumbered(items: Sequence[PlanItem], by: int) -> tuple[PlanItem, ...]:
+    """The same items with every jump's target `by` further on: for who counts from another item."""
+    return tuple(
+        replace(item, params=(item.params[0] + by, *item.params[1:])) if item.command == _m.MAV_CMD_DO_JUMP else item
+        for item in items
+    )
 
 
 def _polygons_flaw(items: Sequence[PlanItem]) -> Flaw | None:

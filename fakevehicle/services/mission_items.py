@@ -18,6 +18,8 @@ from wire.dialect import mavlink
 _m = mavlink
 _LOCAL = (_m.MAV_FRAME_LOCAL_NED, _m.MAV_FRAME_LOCAL_ENU, _m.MAV_FRAME_LOCAL_OFFSET_NED)
 INT_UNSET = 2**31 - 1
+UNKNOWN_HOME = PlanItem(_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_FRAME_GLOBAL, (0.0,) * 7)
+"""Home as a mission's item before anybody knows where it is."""
 
 
 def home_item(supervisor: Supervisor, places: Places) -> PlanItem | None:

@@ -10,15 +10,16 @@ request is answered in the form it asks for. A plan read back has frame 3 where 
 `plain_frames` says so.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fakevehicle.codec import Message
 from fakevehicle.modes import Mode
 from fakevehicle.places import Places
-from fakevehicle.plans import MAX_ITEMS, Flaw, Kind, PlanItem, PlanStore, item_flaw, plan_flaw
+from fakevehicle.plans import MAX_ITEMS, Flaw, Kind, PlanItem, PlanStore, item_flaw, plan_flaw, renumbered
 from fakevehicle.services.mission_items import (
     PLAIN_FRAMES,
+    UNKNOWN_HOME,
     as_int32,
     go_to,
     home_item,
@@ -35,6 +36,9 @@ _m = mavlink
 _ALL = 255
 LOOK_US = 20_000
 """Progress and time-outs are looked at this often."""
+SECOND_US = 1_000_000
+MOST_REACHED = 50
+"""Items told of as reached in one second; a plan of commands alone is done with one a tick."""
 GUIDED_ITEM = 2
 """MISSION_ITEM.current of an item that is no mission's but a place to go to now."""
 
@@ -108,7 +112,7 @@ class Missions(Service):
         self._upload: _Upload | None = None
         self._finished: tuple[Sender, int, int] | None = None  # whose upload ended well, its kind and last item
         self._told: object = None
-        self._reached = 0
+        self._reached = self._reached_told = 0  # how many there were, and told of in this second
 
     def routes(self) -> Mapping[int, Handler]:
         """Which message goes where."""
@@ -187,10 +191,12 @@ class Missions(Service):
         )
 
     def _items(self, kind: Kind) -> tuple[PlanItem, ...]:
-        """A plan as clients see it."""
+        """A plan as clients see it: with home before it, and jumps that count it."""
         items = self._store[kind]
-        home = home_item(self._supervisor, self._places) if self.habits.home_first and kind is Kind.MISSION else None
-        return items if home is None else (home, *items)
+        if not (self.habits.home_first and kind is Kind.MISSION):
+            return items
+        home = home_item(self._supervisor, self._places)
+        return items if home is None and not items else (home or UNKNOWN_HOME, *renumbered(items, 1))
 
     # Up
 
@@ -285,9 +291,12 @@ class Missions(Service):
 
     def step(self, now_us: int) -> None:
         """Ask again or give up, and tell of progress."""
+        if now_us % SECOND_US == 0:
+            self._reached_told = 0
         reached = self._runner.reached_count
-        if reached != self._reached:
+        if reached != self._reached and self._reached_told < MOST_REACHED:
             self._reached = reached
+            self._reached_told += 1
             message = self.mission_item_reached()
             if message is not None:
                 self._outbox.everywhere(message)
@@ -323,10 +332,12 @@ class Missions(Service):
     def _finish(self, up: _Upload) -> None:
         self._upload = None
         old = self._items(up.kind)
-        whole = [*old[: up.first], *up.items, *old[up.last + 1 :]] if up.partial else up.items
-        if self.habits.home_first and up.kind is Kind.MISSION:
-            whole = whole[1:]
-        flaw = plan_flaw(up.kind, whole)
+        whole: Sequence[PlanItem] = up.items
+        if up.partial:
+            whole = (*old[: up.first], *up.items, *old[up.last + 1 :])
+        first = 1 if self.habits.home_first and up.kind is Kind.MISSION else 0
+        whole = renumbered(whole[first:], -first)
+        flaw = plan_flaw(up.kind, whole, first)
         if flaw is not None:
             self._refuse(up.sender, up.kind.value, flaw)
             return
