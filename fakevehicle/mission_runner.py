@@ -45,6 +45,8 @@ FAR_AHEAD = 32
 """Items looked at for the next place."""
 LONGEST_TURN_LEG = 1.0
 """A leg shorter than this over ground [m] does not turn the nose."""
+_WITHOUT_YAW = (_m.MAV_CMD_NAV_LOITER_TURNS, _m.MAV_CMD_CONDITION_GATE)
+"""Places whose fourth parameter is no heading."""
 
 
 class MissionState(Enum):
@@ -258,7 +260,7 @@ class MissionRunner:
             course.leg_to(now_us, aim_n)
         self._passing = False
         north, east = (aim_n - came_n)[:2].tolist()
-        if item.command != _m.MAV_CMD_NAV_LOITER_TURNS and math.isfinite(item.params[3]):
+        if item.command not in _WITHOUT_YAW and math.isfinite(item.params[3]):
             course.turn_to(now_us, math.radians(item.params[3]))
         elif math.hypot(north, east) > LONGEST_TURN_LEG:
             course.turn_to(now_us, math.atan2(east, north))
@@ -272,8 +274,8 @@ class MissionRunner:
 
     def _passes(self, item: PlanItem) -> bool:
         """Whether an item's place is passed without a stop."""
-        waypoint = item.command == _m.MAV_CMD_NAV_WAYPOINT and stay_s(item) == 0.0
-        return waypoint and self._index != self._missed and self._radius(item) >= LEAST_RADIUS
+        passed = item.command in (_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_CMD_CONDITION_GATE) and stay_s(item) == 0.0
+        return passed and self._index != self._missed and self._radius(item) >= LEAST_RADIUS
 
     def _following(self) -> tuple[PlanItem, float | None] | None:
         """The next item with a place and the cruise speed there; None when something is done at rest before it."""
@@ -315,7 +317,7 @@ class MissionRunner:
         what = COMMANDS[Kind.MISSION][item.command].lacking
         if what is not None and what not in self._lacking:
             self._lacking.add(what)
-            self.notes.append(f"Mission item {self._index} passed over: no {what} here")
+            self.notes.append(f"Mission items for a {what} are passed over: there is none")
         self._done()
 
     def _radius(self, item: PlanItem) -> float:

@@ -124,6 +124,7 @@ COMMANDS: Mapping[Kind, Mapping[int, CommandKind]] = {
         _m.MAV_CMD_NAV_LOITER_UNLIM: CommandKind("loiter", True),
         _m.MAV_CMD_NAV_LOITER_TIME: CommandKind("loiter for a time", True, {1: _SECONDS}),
         _m.MAV_CMD_NAV_LOITER_TURNS: CommandKind("turns", True, {1: (0.0, MAX_TURNS), 3: (-FARTHEST, FARTHEST)}),
+        _m.MAV_CMD_CONDITION_GATE: CommandKind("gate", True),
         _m.MAV_CMD_NAV_RETURN_TO_LAUNCH: CommandKind("return", False),
         _m.MAV_CMD_NAV_LAND: CommandKind("landing", True),
         _m.MAV_CMD_NAV_TAKEOFF: CommandKind("takeoff", True),
@@ -181,7 +182,7 @@ def item_flaw(kind: Kind, item: PlanItem) -> Flaw | None:
     return None
 
 
-_NEED_A_PLACE = (_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_CMD_DO_SET_ROI_LOCATION)
+_NEED_A_PLACE = (_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_CMD_CONDITION_GATE, _m.MAV_CMD_DO_SET_ROI_LOCATION)
 
 
 def _roi_flaw(item: PlanItem) -> Flaw | None:

@@ -19,6 +19,7 @@ RING = 16
 """Points by which a circle is judged."""
 PLACES = (
     _m.MAV_CMD_NAV_WAYPOINT,
+    _m.MAV_CMD_CONDITION_GATE,  # in a survey, where the camera begins and ends: on the way, so it is flown to
     _m.MAV_CMD_NAV_LOITER_UNLIM,
     _m.MAV_CMD_NAV_LOITER_TURNS,
     _m.MAV_CMD_NAV_LOITER_TIME,

@@ -545,7 +545,7 @@ def test_a_survey_as_ground_stations_plan_it_is_flown_and_its_camera_told_to_be_
         item(1, m.MAV_CMD_NAV_TAKEOFF, up=8.0),
         waypoint(2, 10.0, 0.0, 8.0),
         item(3, m.MAV_CMD_DO_SET_CAM_TRIGG_DIST, frame=2, p1=5.0, p3=1.0),
-        waypoint(4, 10.0, 20.0, 8.0),
+        item(4, m.MAV_CMD_CONDITION_GATE, 10.0, 20.0, 8.0, yaw=0.0),
         item(5, m.MAV_CMD_DO_SET_CAM_TRIGG_DIST, frame=2),
         waypoint(6, 14.0, 20.0, 8.0),
         item(7, m.MAV_CMD_IMAGE_START_CAPTURE, frame=2, p2=2.0),
@@ -569,9 +569,9 @@ def test_a_survey_as_ground_stations_plan_it_is_flown_and_its_camera_told_to_be_
     assert reached(pilot) == list(range(14))
     missing = [text for text in pilot.texts() if "passed over" in text]
     assert missing == [
-        "Mission item 0 passed over: no gimbal here",
-        "Mission item 3 passed over: no camera here",
-        "Mission item 10 passed over: no servo here",
+        "Mission items for a gimbal are passed over: there is none",
+        "Mission items for a camera are passed over: there is none",
+        "Mission items for a servo are passed over: there is none",
     ]
 
 
@@ -831,5 +831,21 @@ def test_a_failure_is_injected_by_command(pilot: Pilot) -> None:
     assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, m.FAILURE_TYPE_OK, 0) == ACCEPTED
     assert point(pilot).faults == []
     assert pilot.command(420, m.FAILURE_UNIT_SYSTEM_MOTOR, m.FAILURE_TYPE_OFF, 99) == DENIED
+    assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, m.FAILURE_TYPE_OFF, 2) == DENIED
     assert pilot.command(420, 99, 1, 0) == DENIED
     assert pilot.command(420, m.FAILURE_UNIT_SENSOR_GPS, 7, 0) == UNSUPPORTED
+
+
+def test_a_failure_names_one_motor_or_all_of_them(pilot: Pilot) -> None:
+    def failing() -> list[int]:
+        return [f.index for f in point(pilot).faults]
+
+    motor, off, ok = m.FAILURE_UNIT_SYSTEM_MOTOR, m.FAILURE_TYPE_OFF, m.FAILURE_TYPE_OK
+    assert pilot.command(420, motor, off, 2) == pilot.command(420, motor, off, 3) == ACCEPTED
+    assert failing() == [1, 2]
+    assert pilot.command(420, motor, ok, 2) == ACCEPTED
+    assert failing() == [2]
+    assert pilot.command(420, motor, ok, 0) == ACCEPTED
+    assert failing() == []
+    assert pilot.command(420, motor, off, 0) == ACCEPTED
+    assert failing() == [0, 1, 2, 3]
