@@ -50,6 +50,12 @@ class FaultKind(Enum):
     DELAY = "delay"
 
 
+WORDS = {Sensor.GYRO: 3, Sensor.ACCEL: 3, Sensor.MAG: 3, Sensor.GPS: 6, Sensor.BATTERY: 3}
+"""How many numbers a sensor's word has, where it is not one."""
+INSTANCES = {Sensor.MOTOR: 4}
+"""How many of a kind there are, where it is not one."""
+
+
 @dataclass(frozen=True, slots=True)
 class Fault:
     """One fault.
@@ -59,7 +65,7 @@ class Fault:
     sensor, kind : what fails, and how.
     start_us, end_us : when [us]; None: it stays.
     magnitude : of BIAS an axis, of NOISE (1 sigma) or of DELAY [s], in the sensor's units; a motor's share of thrust.
-    index : which motor, from 0; 0 for sensors.
+    index : which motor, from 0; 0 for sensors, of which there is one each.
     """
 
     sensor: Sensor
@@ -72,7 +78,8 @@ class Fault:
     def __post_init__(self) -> None:
         what = f"fault {self.sensor.value}:{self.kind.value}"
         if self.start_us < 0 or (self.end_us is not None and self.end_us <= self.start_us):
-            raise ValueError(f"{what}: from {self.start_us} to {self.end_us} us, expected an end after the start")
+            end_s = math.inf if self.end_us is None else self.end_us * 1e-6
+            raise ValueError(f"{what}: from {self.start_us * 1e-6:g} to {end_s:g} s, expected an end after the start")
         if len(self.magnitude) > 6 or not all(math.isfinite(m) for m in self.magnitude):
             raise ValueError(f"{what}: magnitude {self.magnitude}, expected at most six finite numbers")
         if self.kind in (FaultKind.BIAS, FaultKind.NOISE, FaultKind.DELAY) and not self.magnitude:
@@ -81,8 +88,11 @@ class Fault:
             raise ValueError(f"{what}: magnitude {self.magnitude}, expected none below 0")
         if self.kind is FaultKind.DELAY and self.magnitude[0] > LONGEST_DELAY_S:
             raise ValueError(f"{what}: {self.magnitude[0]:g} s, expected at most {LONGEST_DELAY_S:g}")
-        if not 0 <= self.index < 8:
-            raise ValueError(f"{what}: index {self.index}, expected 0..7")
+        numbers = len(self.magnitude)
+        if self.kind in (FaultKind.BIAS, FaultKind.NOISE) and numbers not in (1, WORDS.get(self.sensor, 1)):
+            raise ValueError(f"{what}: {numbers} numbers, expected 1 or {WORDS.get(self.sensor, 1)}")
+        if not 0 <= self.index < INSTANCES.get(self.sensor, 1):
+            raise ValueError(f"{what}: number {self.index + 1}, this vehicle has {INSTANCES.get(self.sensor, 1)}")
 
 
 TYPICAL: dict[Sensor, dict[FaultKind, tuple[float, ...]]] = {
@@ -129,7 +139,7 @@ def parse_fault(text: str) -> Fault:
         start, end = (None if t is None else round(1e6 * float(t)) for t in (match["start"], match["end"]))
     except ValueError:
         raise ValueError(f"fault {text!r}: a magnitude or a time is not a number") from None
-    return Fault(sensor, kind, start or 0, end, magnitude, max(int(match["index"] or 1) - 1, 0))
+    return Fault(sensor, kind, start or 0, end, magnitude, int(match["index"] or 1) - 1)
 
 
 class FaultSchedule:
@@ -153,9 +163,9 @@ class FaultSchedule:
         self._faults = (*self._faults, fault)[-MOST:]
         self._concerned.add(fault.sensor)
 
-    def mend(self, sensor: Sensor, now_us: int) -> None:
-        """End every fault of one sensor that holds at `now_us`."""
-        ending = self.active(sensor, now_us)
+    def mend(self, sensor: Sensor, now_us: int, index: int | None = None) -> None:
+        """End every fault of one sensor that holds at `now_us`; of several alike that with `index`, or all."""
+        ending = [f for f in self.active(sensor, now_us) if index is None or f.index == index]
         self._faults = tuple(replace(f, end_us=now_us) if f in ending else f for f in self._faults)
 
     def active(self, sensor: Sensor, now_us: int) -> tuple[Fault, ...]:

@@ -226,9 +226,9 @@ class FlightStack:
         """Add a fault to the schedule."""
         self._faults.add(fault)
 
-    def mend(self, sensor: Sensor, now_us: int) -> None:
-        """End every fault of one sensor."""
-        self._faults.mend(sensor, now_us)
+    def mend(self, sensor: Sensor, now_us: int, index: int | None = None) -> None:
+        """End every fault of one sensor; of motors that with `index`, or all."""
+        self._faults.mend(sensor, now_us, index)
 
     def reset_control(self) -> None:
         """Forget the setpoints there were, without a bump of the motors: at a change of mode."""

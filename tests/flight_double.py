@@ -49,8 +49,8 @@ class PointMass:
     def inject(self, fault: Fault) -> None:
         self.faults.append(fault)
 
-    def mend(self, sensor: Sensor, now_us: int) -> None:
-        self.faults = [fault for fault in self.faults if fault.sensor is not sensor]
+    def mend(self, sensor: Sensor, now_us: int, index: int | None = None) -> None:
+        self.faults = [f for f in self.faults if f.sensor is not sensor or index not in (None, f.index)]
 
     def reset_control(self) -> None:
         self.resets += 1

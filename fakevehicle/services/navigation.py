@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from fakevehicle.codec import Message
-from fakevehicle.faults import TYPICAL, Fault, FaultKind, Sensor
+from fakevehicle.faults import INSTANCES, TYPICAL, Fault, FaultKind, Sensor
 from fakevehicle.fence import FenceMonitor
 from fakevehicle.modes import Event, Refusal
 from fakevehicle.places import Places
@@ -28,7 +28,6 @@ from fakevehicle.vocabulary import Geodetic
 from wire.dialect import mavlink
 
 _m = mavlink
-ROTORS = 4
 
 
 class Navigation(Service):
@@ -39,7 +38,7 @@ class Navigation(Service):
     supervisor : flies.
     missions : knows the items as clients count them.
     outbox, places : as everywhere.
-    inject, mend : give a fault to the flight stack, and end those of a sensor.
+    inject, mend : give a fault to the flight stack, and end those of a sensor, or of one of several alike.
     announce_home, announce_origin : build HOME_POSITION and GPS_GLOBAL_ORIGIN.
     """
 
@@ -50,7 +49,7 @@ class Navigation(Service):
         outbox: Outbox,
         places: Places,
         inject: Callable[[Fault], None],
-        mend: Callable[[Sensor, int], None],
+        mend: Callable[[Sensor, int, int | None], None],
         announce_home: Builder,
         announce_origin: Builder,
     ) -> None:
@@ -225,22 +224,24 @@ class Navigation(Service):
         return Verdict(_m.MAV_RESULT_UNSUPPORTED, "start the simulator anew instead")
 
     def _inject_failure(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        """FAILURE_UNIT, FAILURE_TYPE and instance (0: the first): failing or, with OK, well again from now on."""
+        """FAILURE_UNIT, FAILURE_TYPE and instance (0: all of them): failing or, with OK, well again from now on."""
         unit, kind, instance = (round(p) if math.isfinite(p) else -1 for p in command.params[:3])
         sensor = _UNITS.get(unit)
         if sensor is None:
             return denied(f"param1 is {unit}, a unit this vehicle cannot fail")
-        if not 0 <= instance <= ROTORS:
-            return denied(f"param3 is {instance}, expected 0..{ROTORS}")
+        most = INSTANCES.get(sensor, 1)
+        if not 0 <= instance <= most:
+            return denied(f"param3 is {instance}, expected 0..{most}")
         if kind == _m.FAILURE_TYPE_OK:
-            self._mend(sensor, now_us)
+            self._mend(sensor, now_us, instance - 1 if instance else None)
             return ACCEPTED
         fault = _FAILURES.get(kind)
         magnitude = () if fault in _PLAIN else TYPICAL[sensor].get(fault) if fault is not None else None
         if fault is None or magnitude is None:
             known = "ok (0), off (1), stuck (2), garbage (3), wrong (4) or delayed (6)"
             return Verdict(_m.MAV_RESULT_UNSUPPORTED, f"param2 is {kind}, expected {known}")
-        self._inject(Fault(sensor, fault, now_us, None, magnitude, max(instance - 1, 0)))
+        for index in (instance - 1,) if instance else range(most):
+            self._inject(Fault(sensor, fault, now_us, None, magnitude, index))
         return ACCEPTED
 
 

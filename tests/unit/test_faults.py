@@ -33,6 +33,11 @@ BAD = [
     "gyro:bias=a",
     "gps:off@x",
     "motor0:off@.",
+    "motor0:off",
+    "motor5:off",
+    "gps2:off",
+    "gps:bias=1,2",
+    "range:noise=1,2",
 ]
 
 
@@ -57,6 +62,21 @@ def test_a_schedule_knows_what_holds_when_and_forgets_the_oldest_of_too_many() -
     assert not schedule.active(Sensor.MAG, 10**9)
     assert schedule.concerns(Sensor.MAG)
     assert not schedule.concerns(Sensor.GYRO)
+
+
+def test_one_motor_of_several_is_mended_by_its_number() -> None:
+    schedule = FaultSchedule([parse_fault("motor2:off"), parse_fault("motor3:off")])
+    schedule.mend(Sensor.MOTOR, 1_000_000, 1)
+    assert [f.index for f in schedule.active(Sensor.MOTOR, 1_000_000)] == [2]
+    schedule.mend(Sensor.MOTOR, 2_000_000)
+    assert schedule.active(Sensor.MOTOR, 2_000_000) == ()
+
+
+def test_a_fault_is_refused_in_the_units_people_write_it_in() -> None:
+    with pytest.raises(ValueError, match="from 20 to 10 s, expected an end after the start"):
+        parse_fault("gps:off@20-10")
+    with pytest.raises(ValueError, match="fault motor:off: number 9, this vehicle has 4"):
+        parse_fault("motor9:off")
 
 
 def said(text: str, seconds: int = 40) -> list[float]:
