@@ -1,13 +1,20 @@
 """MAVSDK's current Python API (PyPI, 4.x) against the vehicle's process: both end with the block."""
 
+import math
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from mavsdk import ComponentType, Configuration, Mavsdk
+from mavsdk.plugins.mission import MissionItem
 from mavsdk.plugins.telemetry import Telemetry
 from vehicle_process import VehicleProcess, free_port
+
+LATITUDE, LONGITUDE = 47.397742, 8.545594
+"""Where a vehicle stands that is told nothing else."""
+NORTH, EAST = 1.0 / 111_180.0, 1.0 / 75_500.0
+"""A metre in degrees there."""
 
 
 @contextmanager
@@ -52,3 +59,11 @@ def answers(call: Callable[[], Any]) -> bool:
     except Exception:
         return False
     return True
+
+
+def place(north: float, east: float, up: float, *, through: bool, stay: float = math.nan) -> MissionItem:
+    """A mission item so many metres from home, at 5 m/s."""
+    nan = math.nan
+    camera, nothing = MissionItem.CameraAction.NONE, MissionItem.VehicleAction.NONE
+    latitude, longitude = LATITUDE + north * NORTH, LONGITUDE + east * EAST
+    return MissionItem(latitude, longitude, up, 5.0, through, nan, nan, camera, stay, nan, nan, nan, nan, nothing)

@@ -8,17 +8,17 @@ import pytest
 pytest.importorskip("mavsdk")
 
 from mavsdk.plugins.action import Action, ActionError
+from mavsdk.plugins.geofence import FenceType, Geofence, GeofenceData, Point, Polygon
 from mavsdk.plugins.info import Info
+from mavsdk.plugins.mission import Mission, MissionError, MissionPlan
 from mavsdk.plugins.offboard import Offboard, PositionNedYaw
 from mavsdk.plugins.param import Param, ParamError
 from mavsdk.plugins.telemetry import FlightMode, LandedState, Telemetry
-from mavsdk_sync import answers, connected, until
+from mavsdk_sync import LATITUDE, LONGITUDE, NORTH, answers, connected, place, until
 
 pytestmark = pytest.mark.udp
 
 RATES = ("health", "gps_info", "position", "position_velocity_ned", "landed_state", "attitude_euler")
-METRE = 1.0 / 111_180.0
-"""In degrees of latitude."""
 
 
 def streaming(system: Any) -> Telemetry:
@@ -42,9 +42,9 @@ def test_mavsdk_flies_the_ardupilot_flavour() -> None:
         until(lambda: telemetry.position().relative_altitude_m > 3.7, 10, "takeoff")
         assert telemetry.in_air()
         home = telemetry.home()
-        north = home.latitude_deg + 8.0 * METRE
+        north = home.latitude_deg + 8.0 * NORTH
         action.goto_location(north, home.longitude_deg, home.absolute_altitude_m + 4.0, 0.0)
-        until(lambda: abs(telemetry.position().latitude_deg - north) < 0.5 * METRE, 10, "the place")
+        until(lambda: abs(telemetry.position().latitude_deg - north) < 0.5 * NORTH, 10, "the place")
         offboard.set_position_ned(PositionNedYaw(2.0, 1.0, -3.0, 0.0))
         offboard.start()
 
@@ -63,6 +63,30 @@ def test_mavsdk_flies_the_ardupilot_flavour() -> None:
         until(lambda: telemetry.flight_mode() == FlightMode.LAND, 3, "land")
         until(lambda: not telemetry.armed(), 20, "disarming")
         until(lambda: telemetry.landed_state() == LandedState.ON_GROUND, 3, "the ground")
+
+
+def test_mavsdk_flies_a_mission_inside_a_fence_on_the_ardupilot_flavour_and_returns() -> None:
+    with connected("--autopilot", "ardupilot", "--seed", "6", "--speed", "4") as system:
+        telemetry, action, mission, fence = streaming(system), Action(system), Mission(system), Geofence(system)
+        corners = [Point(LATITUDE + n * 1e-3, LONGITUDE + e * 1e-3) for n, e in ((1, 1), (1, -1), (-1, 0))]
+        fence.upload_geofence(GeofenceData([Polygon(corners, FenceType.INCLUSION)], []))
+        mission.upload_mission(MissionPlan([place(6.0, 0.0, 5.0, through=True), place(6.0, 6.0, 5.0, through=True)]))
+        action.arm()
+        action.takeoff()
+        until(telemetry.in_air, 5, "takeoff")
+        mission.start_mission()
+        until(lambda: telemetry.flight_mode() == FlightMode.MISSION, 5, "mission mode")
+        until(mission.is_mission_finished, 20, "the mission")
+        assert mission.mission_progress().total == 2
+        assert abs(telemetry.position().latitude_deg - LATITUDE - 6.0 * NORTH) < 1.5 * NORTH
+        with pytest.raises(MissionError):
+            mission.download_mission()  # item 0 is home, as ArduPilot's is, and MAVSDK does not know its frame
+        action.return_to_launch()
+        until(lambda: telemetry.flight_mode() == FlightMode.RETURN_TO_LAUNCH, 3, "the return")
+        until(lambda: not telemetry.armed(), 40, "landing")
+        assert abs(telemetry.position().latitude_deg - telemetry.home().latitude_deg) < 0.6 * NORTH
+        mission.clear_mission()
+        fence.clear_geofence()
 
 
 def test_version_and_parameters_of_the_ardupilot_flavour() -> None:

@@ -10,17 +10,12 @@ pytest.importorskip("mavsdk")
 
 from mavsdk.plugins.action import Action
 from mavsdk.plugins.geofence import FenceType, Geofence, GeofenceData, Point, Polygon
-from mavsdk.plugins.mission import Mission, MissionItem, MissionPlan
+from mavsdk.plugins.mission import Mission, MissionPlan
 from mavsdk.plugins.offboard import Attitude, AttitudeRate, Offboard
 from mavsdk.plugins.telemetry import FlightMode, LandedState
-from mavsdk_sync import connected, healthy, until
+from mavsdk_sync import EAST, LATITUDE, LONGITUDE, NORTH, connected, healthy, place, until
 
 pytestmark = pytest.mark.udp
-
-LATITUDE, LONGITUDE = 47.397742, 8.545594
-NORTH, EAST = 1.0 / 111_180.0, 1.0 / 75_500.0
-"""A metre in degrees there."""
-NAN = math.nan
 
 
 @pytest.fixture
@@ -28,27 +23,6 @@ def system() -> Iterator[Any]:
     """A vehicle four times as fast as life."""
     with connected("--seed", "6", "--speed", "4") as found:
         yield found
-
-
-def place(north: float, east: float, up: float, *, through: bool, stay: float = NAN) -> MissionItem:
-    camera = MissionItem.CameraAction.NONE
-    nothing = MissionItem.VehicleAction.NONE
-    return MissionItem(
-        LATITUDE + north * NORTH,
-        LONGITUDE + east * EAST,
-        up,
-        5.0,
-        through,
-        NAN,
-        NAN,
-        camera,
-        stay,
-        NAN,
-        NAN,
-        NAN,
-        NAN,
-        nothing,
-    )
 
 
 def test_a_mission_is_loaded_read_back_flown_paused_and_returned_from(system: Any) -> None:
@@ -97,7 +71,7 @@ def test_a_return_climbs_comes_home_lands_and_disarms(system: Any) -> None:
     action.takeoff()
     until(lambda: telemetry.flight_mode() == FlightMode.HOLD and telemetry.in_air(), 20, "takeoff")
     latitude, longitude = home.latitude_deg + 20.0 * NORTH, home.longitude_deg - 10.0 * EAST
-    action.goto_location(latitude, longitude, home.absolute_altitude_m + 4.0, NAN)
+    action.goto_location(latitude, longitude, home.absolute_altitude_m + 4.0, math.nan)
 
     def away() -> float:
         position = telemetry.position()

@@ -19,7 +19,8 @@ def connection() -> Iterator[Any]:
     patch = pytest.MonkeyPatch()
     patch.setenv("MAVLINK20", "1")
     mavutil.set_dialect("ardupilotmega")
-    with VehicleProcess("--autopilot", "ardupilot", "--connect", f"udpout:127.0.0.1:{port}", "--param", "RTL_ALT=1000"):
+    flavour = ("--autopilot", "ardupilot", "--param", "RTL_ALT=1000", "--speed", "3")
+    with VehicleProcess("--connect", f"udpout:127.0.0.1:{port}", *flavour):
         found = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
         try:
             assert found.wait_heartbeat(timeout=10) is not None
