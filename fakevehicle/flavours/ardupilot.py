@@ -18,7 +18,17 @@ from fakevehicle.config import Profile
 from fakevehicle.faults import Fault, FaultKind, Sensor
 from fakevehicle.flavours import ardupilot_parameters as names
 from fakevehicle.flavours.ardupilot_commands import ArduCommands, failed
-from fakevehicle.flavours.ardupilot_modes import AUTO, BRAKE, BY_NUMBER, GUIDED, LAND, MODES, RTL, STABILIZE
+from fakevehicle.flavours.ardupilot_modes import (
+    AUTO,
+    BRAKE,
+    BY_ATTITUDE,
+    BY_NUMBER,
+    GUIDED,
+    LAND,
+    MODES,
+    RTL,
+    STABILIZE,
+)
 from fakevehicle.flavours.ardupilot_setpoints import GuidedSetpoints
 from fakevehicle.flavours.ardupilot_streams import RATES_HZ, StreamRequests
 from fakevehicle.flavours.base import Flavour, ModeInfo, Parts, Said
@@ -227,10 +237,10 @@ class ArduPilot(Flavour):
     # Messages
 
     def heartbeat(self) -> Message:
-        """base_mode without guided in STABILIZE and when it lands blindly."""
+        """base_mode without guided where a pilot would steer and when it lands blindly."""
         s = self.parts.supervisor
         base = _OWN_BASE
-        if self.booting or not (self.number == STABILIZE or (self.number == LAND and s.position_n is None)):
+        if self.booting or not (self.number in BY_ATTITUDE or (self.number == LAND and s.position_n is None)):
             base |= _m.MAV_MODE_FLAG_GUIDED_ENABLED
         if s.armed:
             base |= _m.MAV_MODE_FLAG_SAFETY_ARMED

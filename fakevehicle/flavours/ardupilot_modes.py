@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fakevehicle.modes import Event, Mode, Refusal
 from wire.dialect import mavlink
 
-STABILIZE, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 3, 4, 5, 6, 9, 17
+STABILIZE, ALT_HOLD, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 2, 3, 4, 5, 6, 9, 17
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +39,7 @@ _m = mavlink
 MODES = (
     ArduMode(AUTO, "AUTO", Event.ASK_MISSION, Mode.MISSION, False, True, _m.MAV_STANDARD_MODE_MISSION),
     ArduMode(STABILIZE, "STABILIZE", Event.ASK_STABILIZED, Mode.STABILIZED, True, False),
+    ArduMode(ALT_HOLD, "ALT_HOLD", Event.ASK_ALTITUDE, Mode.ALTITUDE, True, False, _m.MAV_STANDARD_MODE_ALTITUDE_HOLD),
     ArduMode(LOITER, "LOITER", Event.ASK_POSITION, Mode.POSITION, True, True, _m.MAV_STANDARD_MODE_POSITION_HOLD),
     ArduMode(GUIDED, "GUIDED", Event.ASK_GUIDED, Mode.GUIDED, True, True),
     ArduMode(LAND, "LAND", Event.ASK_LAND, Mode.LAND, False, False, _m.MAV_STANDARD_MODE_LAND),
@@ -47,6 +48,8 @@ MODES = (
 )
 """In the order in which AVAILABLE_MODES counts them."""
 
+BY_ATTITUDE = (STABILIZE, ALT_HOLD)
+"""Modes whose heartbeat has no guided flag: they hold no place."""
 BY_NUMBER = {mode.number: mode for mode in MODES}
 
 ARMING_WORDS = {

@@ -18,7 +18,7 @@ from fakevehicle.vehicle import Vehicle
 from wire.dialect import mavlink
 
 _m = mavlink
-STABILIZE, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 3, 4, 5, 6, 9, 17
+STABILIZE, ALT_HOLD, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 2, 3, 4, 5, 6, 9, 17
 BOOTED_S = 3.5
 
 
@@ -92,6 +92,24 @@ def test_a_mode_that_does_not_exist_fails_in_words(pilot: Pilot) -> None:
     assert pilot.command(_m.MAV_CMD_DO_SET_MODE, 1, 99) == FAILED
     assert pilot.texts()[-1] == "No such mode 99"
     assert mode(pilot) == STABILIZE
+
+
+def test_altitude_hold_is_armed_in_and_entered_without_a_position(pilot: Pilot) -> None:
+    assert pilot.command(_m.MAV_CMD_DO_SET_MODE, 1, ALT_HOLD) == ACCEPTED
+    assert pilot.command(_m.MAV_CMD_COMPONENT_ARM_DISARM, 1) == ACCEPTED
+    assert pilot.command(_m.MAV_CMD_COMPONENT_ARM_DISARM, 0) == ACCEPTED
+    fly(pilot)
+    stack: Any = pilot.vehicle._stack
+    stack.position_known = False
+    pilot.run(0.1)
+    assert pilot.command(_m.MAV_CMD_DO_SET_MODE, 1, LOITER) == FAILED
+    assert pilot.texts()[-1].endswith("requires position")
+    assert pilot.command(_m.MAV_CMD_DO_SET_MODE, 1, ALT_HOLD) == ACCEPTED
+    pilot.run(4.0)
+    heartbeat = pilot.last("HEARTBEAT")
+    assert heartbeat.custom_mode == ALT_HOLD
+    assert not heartbeat.base_mode & _m.MAV_MODE_FLAG_GUIDED_ENABLED
+    assert float(pilot.vehicle.truth.position_n[2]) == pytest.approx(-5.0, abs=0.2)
 
 
 @pytest.mark.parametrize("number", [AUTO, RTL, LAND, BRAKE])
@@ -284,13 +302,13 @@ def test_a_requested_message_comes_after_its_ack(pilot: Pilot) -> None:
 
 def test_its_modes_are_listed_one_by_one_and_past_the_end_is_nothing(pilot: Pilot) -> None:
     numbers = []
-    for index in range(1, 8):
+    for index in range(1, 9):
         assert pilot.command(_m.MAV_CMD_REQUEST_MESSAGE, _m.MAVLINK_MSG_ID_AVAILABLE_MODES, index) == ACCEPTED
         assert pilot.last("AVAILABLE_MODES").mode_index == index
         numbers.append(pilot.last("AVAILABLE_MODES").custom_mode)
-    assert sorted(numbers) == [STABILIZE, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE]
+    assert sorted(numbers) == [STABILIZE, ALT_HOLD, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE]
     assert pilot.command(_m.MAV_CMD_REQUEST_MESSAGE, _m.MAVLINK_MSG_ID_AVAILABLE_MODES, 200) == ACCEPTED
-    assert pilot.last("AVAILABLE_MODES").mode_index == 7
+    assert pilot.last("AVAILABLE_MODES").mode_index == 8
 
 
 def test_parameters_have_ardupilots_names_units_and_casts(pilot: Pilot) -> None:
