@@ -126,6 +126,12 @@ class Airframe(BaseModel):
         ).T
 
     @property
+    def level_thrust(self) -> float:
+        """The most the rotors can give together without a torque [N]: all of it, or what the busiest of them allows."""
+        shares = np.linalg.inv(self.allocation())[:, 3]
+        return float(self.thrust_coefficient * self.max_rotor_speed**2 / shares.max())
+
+    @property
     def hover_speed(self) -> float:
         """Rotor speed at which the thrust balances the weight [rad/s]."""
         return float(np.sqrt(self.mass * GRAVITY / (4 * self.thrust_coefficient)))

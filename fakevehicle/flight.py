@@ -215,7 +215,8 @@ class FlightStack:
         self._gauge.read(now_us)
         if self._sagging:
             body["sag"] = sag = battery.sag
-            body["boost"] = 1.0 / sag if self._boosting else 1.0
+            body["boost"] = boost = 1.0 / sag if self._boosting else 1.0
+            self._control.weaken(boost)
         if self._faults.concerns(Sensor.MOTOR):
             body["effect"] = 1.0
             for fault in self._faults.active(Sensor.MOTOR, now_us):
@@ -382,6 +383,7 @@ class FlightStack:
         self._sagging, self._boosting = bool(p["SIM_BAT_SAG"]), bool(p["MC_BAT_SCALE_EN"])
         if not self._sagging:
             self._body["sag"], self._body["boost"] = 1.0, 1.0
+            self._control.weaken(1.0)
         capacity = p["SIM_BAT_CAPACITY"] or 1000.0 * self._battery.pack.capacity
         self._battery.capacity = 3.6 * float(capacity)
         strength = float(p["SIM_WIND_GUST"])

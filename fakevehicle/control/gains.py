@@ -137,6 +137,7 @@ class ControlTables:
     Attributes
     ----------
     bank : three velocity and three rate loops.  gains : (1,) of `GAINS`.  status : (1,) of `LOOPS`.
+    boost : how far rotor speeds are raised against a falling voltage, as far as the loops know; told by `weaken`.
     """
 
     def __init__(self, airframe: Airframe, parameters: ParameterSet) -> None:
@@ -146,6 +147,8 @@ class ControlTables:
         self.status["q_sp"][0, 0] = 1.0
         self.status["followed"] = self.status["asked"] = np.nan
         self._full = 4 * airframe.thrust_coefficient * airframe.max_rotor_speed**2
+        self._level = airframe.level_thrust
+        self.boost, self._most = 1.0, 0.0
         self._orders: dict[str, tuple[float, float, float]] = {}
         self.update(parameters, at_rest=True)
 
@@ -161,7 +164,8 @@ class ControlTables:
         g["speed_down"] = p["MPC_Z_VEL_MAX_DN"]
         g["tan_tilt"] = math.tan(math.radians(p["MPC_TILTMAX_AIR"]))
         g["thrust_full"] = self._full
-        g["thrust_min"], g["thrust_max"] = p["MPC_THR_MIN"] * self._full, p["MPC_THR_MAX"] * self._full
+        g["thrust_min"], self._most = p["MPC_THR_MIN"] * self._full, p["MPC_THR_MAX"] * self._level
+        self.weaken(self.boost)
         self.status["gyro_gain"] = 1.0 - math.exp(-2.0 * math.pi * p["IMU_GYRO_CUTOFF"] * INNER_PERIOD)
         for loop in FOPID_LOOPS:
             name = f"FT_{loop.name}_"
@@ -183,6 +187,11 @@ class ControlTables:
                     b=float(p[name + "B"]),
                     limit=float(p[name + "ILIM"]),
                 )
+
+    def weaken(self, boost: float) -> None:
+        """Ask for no more thrust than the rotors give when their speeds must be raised by `boost` (1: a full pack)."""
+        self.boost = boost
+        self.gains[0]["thrust_max"] = min(self._most, self._level / boost**2)
 
     def rest(self, yaw: float) -> None:
         """The loops as new: nothing remembered, holding this yaw [rad]. While the motors do not obey them."""
