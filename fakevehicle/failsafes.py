@@ -42,6 +42,7 @@ class Trigger(Enum):
     BATTERY_EMERGENCY = "battery nearly empty"
     POSITION_LOST = "position lost"
     FENCE_BREACHED = "fence breached"
+    MISSION_UNFIT = "mission not possible"
 
 
 class Action(IntEnum):
@@ -80,6 +81,7 @@ RULES: Mapping[Trigger, Rule] = {
     Trigger.BATTERY_EMERGENCY: Rule("COM_LOW_BAT_ACT", {0: _W, 2: _L, 3: _L}),
     Trigger.POSITION_LOST: Rule("", {0: _L}),
     Trigger.FENCE_BREACHED: Rule("GF_ACTION", {1: _W, 2: _H, 3: _R, 4: _M, 5: _L}),
+    Trigger.MISSION_UNFIT: Rule("", {0: _H}),
 }
 EVENTS: Mapping[Action, Event] = {
     Action.HOLD: Event.FAIL_HOLD,

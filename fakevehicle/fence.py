@@ -13,7 +13,6 @@ from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.places import Places
 from fakevehicle.plans import CIRCLES, PlanItem, PlanStore
 from fakevehicle.vocabulary import FloatArray, Geodetic
-from fakevehicle.waypoints import extent_of
 from wire.dialect import mavlink
 
 _m = mavlink
@@ -65,8 +64,6 @@ class FenceMonitor:
         self._places = places
         self._zones: tuple[_Zone, ...] = ()
         self._made_of: tuple[object, Geodetic | None] = (None, None)
-        self._mission_key: tuple[float, ...] = ()
-        self._mission_leaves = False
         self.enabled = True
         self.breach: Breach | None = None
         self.breaches = 0
@@ -100,18 +97,6 @@ class FenceMonitor:
         if any(zone.holds(north, east) is not zone.inclusion for zone in self._local_zones()):
             return Breach.BOUNDARY
         return None
-
-    def mission_leaves(self, home_n: FloatArray) -> bool:
-        """Whether a place of the loaded mission is where nobody may be; worked out once for what is loaded.
-
-        `home_n`, (3,) [m], is what heights count from, and what an item leaves open.
-        """
-        key = (self._store.version, self._parameters.version, self.enabled, *home_n.tolist())
-        if key != self._mission_key:
-            self._mission_key = key
-            points = (point for item in self._store.mission for point in extent_of(item, self._places, home_n))
-            self._mission_leaves = any(self.breach_at(point, home_n) is not None for point in points)
-        return self._mission_leaves
 
     def _local_zones(self) -> tuple[_Zone, ...]:
         origin = self._places.origin

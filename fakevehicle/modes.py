@@ -113,6 +113,7 @@ class Refusal(Enum):
     NOT_ARMABLE_MODE = "ask for Hold first"
     BATTERY_LOW = "battery too low"
     OUTSIDE_FENCE = "outside the fence"
+    MISSION_TOO_FAR = "a place of the mission is too far away"
     BELOW = "that altitude is below the vehicle"
 
 

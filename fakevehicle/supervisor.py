@@ -7,14 +7,15 @@ failsafe table's, and what either means for the mode the modes' table's.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fakevehicle import course, failsafes, fence, mission_runner, navigator, setpoint_stream
+from fakevehicle import course, failsafes, fence, mission_check, mission_runner, navigator, setpoint_stream
 from fakevehicle.failsafes import EVENTS, Action, Failsafes, Trigger, Tripped, battery_triggers
 from fakevehicle.fence import FenceMonitor
 from fakevehicle.landing import LandDetector
+from fakevehicle.mission_check import MissionCheck
 from fakevehicle.mission_runner import MissionRunner
 from fakevehicle.modes import TRANSITIONS, Conditions, Event, Mode, Refusal, Special, refusal
 from fakevehicle.navigator import ARRIVED, Navigator
@@ -31,6 +32,7 @@ _I = ParameterType.INT32
 PARAMETERS: tuple[Parameter, ...] = (
     *course.PARAMETERS,
     *navigator.PARAMETERS,
+    *mission_check.PARAMETERS,
     *mission_runner.PARAMETERS,
     *fence.PARAMETERS,
     *failsafes.PARAMETERS,
@@ -78,6 +80,7 @@ class Supervisor:
         self._store = store
         self.navigator = Navigator(store, parameters, places)
         self.fence = FenceMonitor(store, parameters, places)
+        self._check = MissionCheck(store, parameters, places, self.fence)
         self._failsafes = Failsafes(parameters)
         self.mode = Mode.HOLD
         self.intended = Mode.HOLD
@@ -164,6 +167,18 @@ class Supervisor:
         """The reason arming would be refused, None when it would not: the PREARM bit of SYS_STATUS."""
         return refusal(Event.ASK_ARM, self.conditions(now_us))
 
+    def why_mission_unfit(self) -> Refusal | None:
+        """Why the mission that is loaded cannot be flown from this home, None when it can."""
+        return None if self.home is None else self._check.refusal(self.home.position_n)
+
+    def why_not_startable(self, now_us: int) -> Refusal | None:
+        """Why the mission cannot be begun now, armed for it if need be; None when it can."""
+        conditions = self.conditions(now_us)
+        reason = refusal(Event.ASK_MISSION, conditions) or self.why_mission_unfit()
+        if reason is None and not self.armed:
+            reason = refusal(Event.ASK_ARM, replace(conditions, mode=Mode.MISSION))
+        return reason
+
     # What peers ask for
 
     def ask(self, event: Event, now_us: int) -> Refusal | None:
@@ -173,8 +188,10 @@ class Supervisor:
         reason = refusal(event, self.conditions(now_us))
         if reason is not None:
             return reason
-        if event is Event.ASK_MISSION and self.home is not None and self.fence.mission_leaves(self.home.position_n):
-            return Refusal.OUTSIDE_FENCE
+        if event is Event.ASK_MISSION or (event is Event.ASK_ARM and self.mode is Mode.MISSION):
+            unfit = self.why_mission_unfit()
+            if unfit is not None:
+                return unfit
         match event:
             case Event.ASK_ARM:
                 self._arm(now_us)
@@ -327,6 +344,8 @@ class Supervisor:
         offboard = self.mode is Mode.OFFBOARD or self._stream_lost
         if offboard and not self.setpoints_fresh(now_us):
             triggers.append(Trigger.STREAM_LOST)
+        if self.mode is Mode.MISSION and self.why_mission_unfit() is not None:
+            triggers.append(Trigger.MISSION_UNFIT)
         if not self.airborne:
             return triggers
         silent_s = 0.0 if self._station_us is None else (now_us - self._station_us) * 1e-6
@@ -343,6 +362,9 @@ class Supervisor:
     def _trip(self, tripped: Tripped, now_us: int) -> None:
         """Do what a failsafe wants: what was asked for stays what is intended."""
         why, action = tripped.trigger.value, tripped.action
+        unfit = self.why_mission_unfit() if tripped.trigger is Trigger.MISSION_UNFIT else None
+        if unfit is not None:
+            why = f"{why}, {unfit.value}"
         if action is Action.WARN or not self.armed:
             self.notes.append((WARNING, f"{why[0].upper()}{why[1:]}"))
             return

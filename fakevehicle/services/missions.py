@@ -344,6 +344,9 @@ class Missions(Service):
         self._store.replace(up.kind, whole)
         self._finished = (up.sender, up.kind.value, up.last)
         self._accept(up.sender, up.kind.value)
+        unfit = self._supervisor.why_mission_unfit()
+        if unfit is not None and up.kind is not Kind.RALLY:
+            self._warn(f"Mission not possible: {unfit.value}")
 
     def _accept(self, sender: Sender, kind: int) -> None:
         self._answer(sender, kind, _m.MAV_MISSION_ACCEPTED)
@@ -376,12 +379,19 @@ class Missions(Service):
         self._told = self._progress
         self._outbox.everywhere(self.mission_current())
 
+    def why_not_current(self, sequence: int) -> str | None:
+        """Why an item, as clients count, cannot be the current one; None when it can."""
+        return None if 0 <= self._index(sequence) < len(self._store.mission) else f"there is no item {sequence}"
+
+    def _index(self, sequence: int) -> int:
+        return max(sequence - 1, 0) if self.habits.home_first else sequence
+
     def jump(self, sequence: int) -> str | None:
         """Make an item, as clients count, the current one; None or the reason why not."""
-        index = max(sequence - 1, 0) if self.habits.home_first else sequence
-        if not 0 <= index < len(self._store.mission):
-            return f"there is no item {sequence}"
-        self._runner.set_current(index)
+        reason = self.why_not_current(sequence)
+        if reason is not None:
+            return reason
+        self._runner.set_current(self._index(sequence))
         self._tell_progress()
         return None
 

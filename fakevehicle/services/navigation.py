@@ -167,16 +167,19 @@ class Navigation(Service):
     # The mission
 
     def _start(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        """From the item in parameter 1, when it names one; arms, as PX4 does."""
+        """From the item in parameter 1, when it names one; arms, as PX4 does. What is refused changes nothing."""
         s, first = self._supervisor, command.params[0]
-        if math.isfinite(first) and first > 0.0:
-            reason = self._missions.jump(round(first))
-            if reason is not None:
-                return denied(reason)
+        named = math.isfinite(first) and first > 0.0
+        reason = self._missions.why_not_current(round(first)) if named else None
+        if reason is not None:
+            return denied(reason)
+        refusal = s.why_not_startable(now_us)
+        if refusal is not None:
+            return judged(refusal)
+        if named:
+            self._missions.jump(round(first))
         refusal = s.ask(Event.ASK_MISSION, now_us)
-        if refusal is None and not s.armed:
-            refusal = s.ask(Event.ASK_ARM, now_us)
-        return judged(refusal)
+        return judged(refusal if refusal is not None or s.armed else s.ask(Event.ASK_ARM, now_us))
 
     def _set_current(self, _sender: Sender, command: Command, _now_us: int) -> Verdict:
         """Parameter 1: the item, -1 for the present one; 2: begin anew, with its jumps."""

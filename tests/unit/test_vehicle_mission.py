@@ -707,6 +707,75 @@ def test_a_mission_that_leaves_the_fence_is_not_begun(pilot: Pilot) -> None:
     assert pilot.command(300, 0, 0) == ACCEPTED
 
 
+def test_a_mission_in_flight_is_held_once_it_would_leave_the_fence(pilot: Pilot) -> None:
+    # GIVEN a small mission under way inside a circle of 30 m
+    circle = item(0, m.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, p1=30.0, kind=1)
+    assert upload(pilot, [circle], 1) == upload(pilot, SQUARE) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: at(pilot, 0), 20)
+    # WHEN another one that leads out of it takes its place
+    assert upload(pilot, [waypoint(0, 300.0, 0.0, 5.0)]) == 0
+    assert "Mission not possible: outside the fence" in pilot.texts()
+    pilot.run(1.0)
+    # THEN it is held where it was, and the reason told
+    assert (pilot.armed, pilot.mode) == (True, HOLD)
+    assert "Failsafe activated: mission not possible, outside the fence, Hold" in pilot.texts()
+    pilot.run(10.0)
+    assert abs(point(pilot).p[0]) < 10.0
+    assert pilot.command(300, 0, 0) == REJECTED
+
+
+@pytest.mark.parametrize("narrower", ["fence", "parameter"])
+def test_a_mission_in_flight_is_held_once_the_fence_is_too_narrow_for_it(pilot: Pilot, narrower: str) -> None:
+    assert upload(pilot, [SQUARE[0], waypoint(1, 40.0, 0.0, 5.0), waypoint(2, 40.0, 40.0, 5.0)]) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: at(pilot, 0), 20)
+    if narrower == "fence":
+        assert upload(pilot, [item(0, m.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, p1=30.0, kind=1)], 1) == 0
+    else:
+        pilot.vehicle.parameters.set("GF_MAX_HOR_DIST", 30.0)
+    pilot.run(0.1)
+    assert pilot.mode == HOLD
+
+
+def test_a_mission_that_does_not_fit_cannot_be_armed_for(pilot: Pilot) -> None:
+    assert upload(pilot, SQUARE) == 0
+    assert pilot.command(176, 1, 4, 4) == ACCEPTED
+    assert upload(pilot, square_fence(5.0), 1) == 0
+    assert pilot.command(400, 1) == REJECTED
+    assert pilot.texts()[-1] == "Arming denied: outside the fence"
+
+
+def test_a_mission_for_another_field_is_not_begun(pilot: Pilot) -> None:
+    far = [SQUARE[0], waypoint(1, 12_000.0, 0.0, 5.0)]
+    assert upload(pilot, far) == 0  # kept, as PX4 does
+    assert pilot.texts()[-1] == "Mission not possible: a place of the mission is too far away"
+    assert pilot.command(300, 0, 0) == REJECTED
+    assert pilot.texts()[-1] == "Mission start denied: a place of the mission is too far away"
+    pilot.vehicle.parameters.set("MIS_DIST_1WP", 15_000.0)
+    assert pilot.command(300, 0, 0) == ACCEPTED
+
+
+def test_no_place_of_a_mission_is_on_another_continent(pilot: Pilot) -> None:
+    pilot.vehicle.parameters.set("MIS_DIST_1WP", 0.0)
+    for north, result in ((90_000.0, ACCEPTED), (2_000_000.0, REJECTED)):
+        assert upload(pilot, [*SQUARE[:2], waypoint(2, north, 0.0, 5.0)]) == 0
+        assert pilot.command(300, 0, 0) == result
+        assert pilot.command(176, 1, 4, 3) == ACCEPTED
+        pilot.command(400, 0, 21196)
+
+
+def test_a_mission_start_that_is_refused_changes_nothing(pilot: Pilot) -> None:
+    assert upload(pilot, SQUARE) == 0
+    battery = pilot.vehicle._stack.battery
+    battery.used = 0.97 * battery.capacity
+    pilot.run(0.1)
+    assert pilot.command(300, 2, 0) == REJECTED
+    assert pilot.texts()[-1] == "Mission start denied: battery too low"
+    pilot.run(1.0)
+    assert (pilot.armed, pilot.mode, pilot.last("MISSION_CURRENT").seq) == (False, HOLD, 0)
+
+
 def test_standing_in_an_exclusion_zone_forbids_arming(pilot: Pilot) -> None:
     assert upload(pilot, square_fence(5.0, 5002), 1) == 0
     pilot.run(0.1)
