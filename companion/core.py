@@ -22,11 +22,12 @@ import numpy as np
 from companion.autopilots.base import Autopilot
 from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome
+from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
 from companion.mission import Mission
 from companion.offboard import setpoint_message
 from companion.phases import OVER, STREAMING, Event, Phase, after
-from companion.seam import Input, Level, Note, Order, Output, PlanReady
+from companion.seam import Input, Level, Note, Order, Output, PlanReady, ReplanReady
 from companion.telemetry import Telemetry
 from companion.vehiclelink import AUTOPILOT_COMPONENT, VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
@@ -77,6 +78,9 @@ class Companion:
         self.autopilot: Autopilot = Px4()
         self.origin_n = np.zeros(3)  # the mission frame's origin in the vehicle's local frame, fixed on the ground
         self.link = VehicleLink(config.system_id, config.speaks_first)
+        self.seeing: Seeing = NothingSeen()
+        self.replanning: Replanning = NothingReplanned()
+        self.ground: Ground = NobodyAsks()
         self._started_us: int | None = None
         self._entered_us = 0
         self._streaming_us = 0
@@ -109,6 +113,9 @@ class Companion:
         out: list[Output] = []
         for item in inputs:
             self._take(now_us, item, out)
+        flight_us = now_us
+        out.extend(self.ground.step(now_us))
+        self.seeing.step(flight_us)
         self._report_texts(out)
         if self.phase not in OVER:
             self._answer_command()
@@ -116,6 +123,9 @@ class Companion:
             if event is not None:
                 self._move(now_us, event, out)
             self._work(now_us, out)
+        if self.phase is Phase.FLYING:
+            wanted = self.replanning.step(flight_us, self.pose(flight_us), self.seeing)
+            out.extend([] if wanted is None else [wanted])
         self._stream(now_us, out)
         return out
 
@@ -124,19 +134,33 @@ class Companion:
         """Whether the companion has nothing more to do."""
         return self.phase in OVER
 
+    def pose(self, flight_us: int) -> Pose:
+        """Where the vehicle says it is, in the mission frame."""
+        t = self.telemetry
+        return Pose(flight_us, t.position_n - self.origin_n, t.velocity_n, t.roll, t.pitch, t.yaw)
+
     # ---- 1. inputs ----------------------------------------------------------------------------------------------
 
     def _take(self, now_us: int, item: Input, out: list[Output]) -> None:
         match item:
             case Datagram(link=link, data=data) if link == VEHICLE_LINK:
-                for packet in self.link.packets(now_us, item):
-                    self.telemetry.take(now_us, packet, self.link.decoder)
+                for packet, obeyed in self.link.packets(now_us, item):
+                    self.seeing.take(now_us, packet, self.pose(now_us))
+                    if obeyed:
+                        self.telemetry.take(now_us, packet, self.link.decoder)
                 if self.link.impostor:
                     out.append(Note(Level.WARNING, self.link.impostor))
                     self.link.impostor = ""
                 out.extend(Datagram(ground, data) for ground in self.config.ground_links)
-            case Datagram(link=link, data=data) if link in self.config.ground_links and self.link.may_speak:
-                out.append(Datagram(VEHICLE_LINK, data, self.link.peer))
+            case Datagram(link=link, data=data) if link in self.config.ground_links:
+                answers, orders = self.ground.take(now_us, item)
+                out.extend(answers)
+                for order in orders:
+                    self._take_order(order, out)
+                if self.link.may_speak:
+                    out.append(Datagram(VEHICLE_LINK, data, self.link.peer))
+            case ReplanReady():
+                self.replanning.take(item, now_us)
             case PlanReady():
                 self._take_plan(item, out)
             case Order():

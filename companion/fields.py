@@ -19,10 +19,15 @@ def local_position_ned(payload: bytes) -> tuple[float, float, float, float, floa
     return x, y, z, vx, vy, vz
 
 
-def attitude_yaw(payload: bytes) -> float:
-    """Yaw [rad] of an ATTITUDE."""
-    yaw: float = _unpacked(_ATTITUDE, payload)[3]
-    return yaw
+def attitude(payload: bytes) -> tuple[float, float, float]:
+    """Roll, pitch, yaw [rad] of an ATTITUDE."""
+    _, roll, pitch, yaw = _unpacked(_ATTITUDE, payload)[:4]
+    return roll, pitch, yaw
+
+
+def boot_ms(payload: bytes) -> int:
+    """The time since boot [ms] with which a LOCAL_POSITION_NED or an ATTITUDE begins."""
+    return int.from_bytes(payload[:4], "little")
 
 
 def truth_position(payload: bytes) -> tuple[int, int, int]:

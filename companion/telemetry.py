@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from companion.fields import attitude_yaw, local_position_ned
+from companion.fields import attitude, local_position_ned
 from wire.dialect import mavlink
 from wire.framing import Packet
 
@@ -40,6 +40,8 @@ class Telemetry:
     position_n: FloatArray = field(default_factory=lambda: np.zeros(3))  # (3,) [m]
     velocity_n: FloatArray = field(default_factory=lambda: np.zeros(3))  # (3,) [m/s]
     attitude_us: int | None = None
+    roll: float = 0.0  # [rad]
+    pitch: float = 0.0  # [rad]
     yaw: float = 0.0  # [rad]
     landed_state: int = 0  # MAV_LANDED_STATE
     prearm_ok: bool = False  # SYS_STATUS: every pre-arm check passes
@@ -75,9 +77,10 @@ class Telemetry:
             self.velocity_n = np.array(values[3:])
 
     def _attitude(self, now_us: int, payload: bytes) -> None:
-        yaw = attitude_yaw(payload)
-        if math.isfinite(yaw):
-            self.attitude_us, self.yaw = now_us, yaw
+        angles = attitude(payload)
+        if all(map(math.isfinite, angles)):
+            self.attitude_us = now_us
+            self.roll, self.pitch, self.yaw = angles
 
     def _extended_state(self, now_us: int, m: Any) -> None:
         self.landed_state = m.landed_state

@@ -58,16 +58,21 @@ class VehicleLink:
         """Whether there is somebody to speak to: the vehicle was heard, or it waits to be called."""
         return self.heard_us is not None or self._speaks_first
 
-    def packets(self, now_us: int, datagram: Datagram) -> Iterator[Packet]:
-        """The obeyed autopilot's packets in a datagram; everybody else's are counted."""
+    def packets(self, now_us: int, datagram: Datagram) -> Iterator[tuple[Packet, bool]]:
+        """The packets of the vehicle's system in a datagram, and whether they are its autopilot's, who is obeyed.
+
+        Everybody's but the autopilot's are counted as foreign.
+        """
         for packet in self.framer.packets(datagram.data):
             if self.heard_us is None and self._is_autopilot(packet):
                 self.system_id, self.peer, self.heard_us = packet.system_id, datagram.peer, now_us
             if self.is_vehicle(packet, datagram.peer):
                 self.heard_us = now_us
-                yield packet
+                yield packet, True
             else:
                 self._count_foreign(packet, datagram.peer)
+                if self.heard_us is not None and packet.system_id == self.system_id and datagram.peer == self.peer:
+                    yield packet, False
 
     def is_vehicle(self, packet: Packet, peer: Address | None) -> bool:
         """Whether a packet is from the autopilot that is obeyed."""

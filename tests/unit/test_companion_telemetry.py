@@ -28,9 +28,19 @@ def test_a_local_position_is_what_decode_reads(values):
 
 
 @given(st.lists(floats, min_size=6, max_size=6))
-def test_a_yaw_is_what_decode_reads(values):
+def test_an_attitude_is_what_decode_reads(values):
     found, m = packet(mavlink.MAVLink_attitude_message(7, *values))
-    assert fields.attitude_yaw(found.payload) == m.yaw
+    assert fields.attitude(found.payload) == (m.roll, m.pitch, m.yaw)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_time_since_boot_is_what_decode_reads(boot_ms):
+    for message in (
+        mavlink.MAVLink_attitude_message(boot_ms, *[0] * 6),
+        mavlink.MAVLink_local_position_ned_message(boot_ms, *[0] * 6),
+    ):
+        found, m = packet(message)
+        assert fields.boot_ms(found.payload) == m.time_boot_ms
 
 
 @given(ints, ints, ints)

@@ -1,0 +1,95 @@
+"""What `Companion.step` asks of the parts that see, plan again and talk to ground stations; and parts that do nothing.
+
+The core calls each of them at its place in the tick, whether or not there is one; `core.py` has the order. They are
+step machines like the core itself: time is handed in, nothing is read or sent, and nothing raises for what a peer said.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from companion.seam import FloatArray, Order, ReplanReady, ReplanWanted
+from wire.datagram import Datagram
+from wire.framing import Packet
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where the vehicle says it is, in the mission frame (NED)."""
+
+    flight_us: int  # on the flight clock
+    position_m: FloatArray  # (3,) [m]
+    velocity_m: FloatArray  # (3,) [m/s]
+    roll: float  # [rad]
+    pitch: float  # [rad]
+    yaw: float  # [rad]
+
+
+class Seeing(Protocol):
+    """Obstacles and movers, as sensors tell of them."""
+
+    def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
+        """One packet of any component of the vehicle's system, or of a sensors' link; whether it told of something."""
+        ...
+
+    def step(self, flight_us: int) -> None:
+        """Once a tick, after all packets of the tick."""
+        ...
+
+
+class Replanning(Protocol):
+    """Looks at what is flown, again and again."""
+
+    trouble: str
+    """Why there is nothing safe to fly but a stop; empty otherwise."""
+
+    def take(self, ready: ReplanReady, flight_us: int) -> None:
+        """An answer."""
+        ...
+
+    def step(self, flight_us: int, pose: Pose, seeing: Seeing) -> ReplanWanted | None:
+        """Once a tick while FLYING; the next question, if it is time for one."""
+        ...
+
+
+class Ground(Protocol):
+    """Ground stations that speak to the companion itself (component 191) rather than to the vehicle."""
+
+    def take(self, now_us: int, datagram: Datagram) -> tuple[list[Datagram], list[Order]]:
+        """A ground station's datagram: what to answer (addressed), and what was ordered."""
+        ...
+
+    def step(self, now_us: int) -> list[Datagram]:
+        """Once a tick: repeats and progress."""
+        ...
+
+
+class NothingSeen:
+    """There are no sensors."""
+
+    def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
+        return False
+
+    def step(self, flight_us: int) -> None:
+        pass
+
+
+class NothingReplanned:
+    """What was planned on the ground is flown."""
+
+    trouble = ""
+
+    def take(self, ready: ReplanReady, flight_us: int) -> None:
+        pass
+
+    def step(self, flight_us: int, pose: Pose, seeing: Seeing) -> ReplanWanted | None:
+        return None
+
+
+class NobodyAsks:
+    """No ground station speaks to the companion."""
+
+    def take(self, now_us: int, datagram: Datagram) -> tuple[list[Datagram], list[Order]]:
+        return [], []
+
+    def step(self, now_us: int) -> list[Datagram]:
+        return []

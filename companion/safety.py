@@ -1,0 +1,1 @@
+"""What leads to what when something goes wrong: the table (being filled)."""
