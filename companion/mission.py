@@ -5,6 +5,7 @@ YAML that people write.
 """
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -138,6 +139,7 @@ class Obstacle(_Model):
     prism: PrismShape | None = None
     voxels: MapFile | None = None
     cloud: CloudFile | None = None
+    hidden: bool = False  # there, seen by the bundled vehicle and judged, but the planner is not told
 
     @model_validator(mode="after")
     def _exactly_one(self) -> "Obstacle":
@@ -181,6 +183,18 @@ class LimitsModel(_Model):
     jerk: Annotated[float, Field(ge=0.01, le=1e5)] = 60.0  # [m/s^3]
     climb: Annotated[float, Field(ge=0.3, le=20)] = 1.0  # [m/s] of the takeoff; slower is not seen as one (PX4 disarms)
     clearance: Annotated[float, Field(ge=0, le=100)] = 0.4  # [m] kept by plans between hull and obstacles
+
+
+class Sensing(_Model):
+    """Flying by what the vehicle sees on its way, beside what the world says."""
+
+    use: bool = True
+    resolution: Annotated[float, Field(ge=0.05, le=1)] = 0.1  # [m] edge of the map's cells
+    clearance: Annotated[float, Field(ge=0.05, le=100)] | None = (
+        None  # [m] hull to what is seen; None: limits.clearance
+    )
+    mover_radius: Annotated[float, Field(gt=0, le=50)] = 0.5  # [m] of what ADSB_VEHICLE tells of
+    column: Literal["full"] | Annotated[float, Field(ge=0.1, le=100)] = "full"  # [m] above and below a hit; or all
 
 
 class Takeoff(_Model):
@@ -247,10 +261,12 @@ class Mission(_Model):
     method: Literal["haoaroa", "astar", "jps", "bezier", "lbsgf", "aoa", "roa"] = "haoaroa"  # planner.METHODS
     steps: Annotated[list[Step], Field(min_length=2, max_length=10_000)]
     wind: Wind = Wind()
+    sensing: Sensing | None = None
     expect: Expect = Expect()
 
     _maps: dict[int, VoxelGrid | PointCloud] = PrivateAttr(default_factory=dict)  # by obstacle; see read_maps
     _world: World | None = PrivateAttr(default=None)
+    _whole: World | None = PrivateAttr(default=None)
 
     @field_validator("steps")
     @classmethod
@@ -276,17 +292,40 @@ class Mission(_Model):
         """Distance [m] the planned curve keeps from obstacles: the hull and the clearance."""
         return self.vehicle.radius + self.limits.clearance
 
+    def senses(self) -> bool:
+        """Whether the flight goes by what the vehicle sees, too."""
+        return self.sensing is not None and self.sensing.use
+
+    def seen_radius(self) -> float:
+        """Distance [m] kept from what is seen on the way: the hull and `sensing.clearance`."""
+        own = None if self.sensing is None else self.sensing.clearance
+        return self.vehicle.radius + (self.limits.clearance if own is None else own)
+
     def planner_world(self) -> World:
+        """What the planner is told of the world, in the mission frame."""
+        if self._world is None:
+            self._world = self._built(lambda obstacle: not obstacle.hidden)
+        return self._world
+
+    def whole_world(self) -> World:
+        """The same with what is hidden from the planner: the bundled vehicle sees it and a flight is judged by it."""
+        if not any(obstacle.hidden for obstacle in self.world.obstacles):
+            return self.planner_world()
+        if self._whole is None:
+            self._whole = self._built(lambda obstacle: True)
+        return self._whole
+
+    def _built(self, told: Callable[[Obstacle], bool]) -> World:
         """The world in the mission frame: altitude intervals turned upside down into z."""
 
         def corners(e: Extent) -> tuple[Vector, Vector]:
             low = (e.north.low, e.east.low, -e.altitude.high)
             return low, (e.north.high, e.east.high, -e.altitude.low)
 
-        if self._world is not None:
-            return self._world
         obstacles: list[PlannerObstacle] = []
         for index, obstacle in enumerate(self.world.obstacles):
+            if not told(obstacle):
+                continue
             if obstacle.box is not None:
                 obstacles.append(Box(*corners(obstacle.box)))
             elif obstacle.cylinder is not None:
@@ -300,8 +339,7 @@ class Mission(_Model):
                 obstacles.append(obstacle.prism.in_ned())
             else:
                 obstacles.append(self._maps[index])
-        self._world = World(bounds=corners(self.world.bounds), obstacles=obstacles)
-        return self._world
+        return World(bounds=corners(self.world.bounds), obstacles=obstacles)
 
     def read_maps(self, folder: Path) -> list[tuple[list[Any], str]]:
         """Read the files that the world names, relative to a folder; problems as (keys, what is wrong).
@@ -322,6 +360,7 @@ class Mission(_Model):
                 problems.append((["world", "obstacles", index, kind], str(error)))
         if not problems:
             try:
+                self.whole_world()
                 self.planner_world()
             except ValueError as error:
                 problems.append((["world", "obstacles"], str(error)))

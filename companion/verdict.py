@@ -237,7 +237,7 @@ def failed_expectations(mission: Mission, numbers: dict[str, float | None]) -> l
 
 def least_clearance(mission: Mission, position_m: FloatArray) -> float | None:
     """Least distance [m] between the vehicle's hull (a ball) and an obstacle; None in an empty world."""
-    world = mission.planner_world()
+    world = mission.whole_world()
     if not world.obstacles:
         return None
     return float(np.min(world.distance(position_m))) - mission.vehicle.radius

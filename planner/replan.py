@@ -109,6 +109,7 @@ class Settings:
     hurry: float = 0.96  # what part of the remaining time is tried when there is nothing else to do
     patience: int = 5  # ticks between two such tries; doubled after each in vain, up to sixteen-fold
     stranded: int = 50  # ticks without a way to the goal after which a cold plan is made, and after each as many more
+    cold: bool = True  # whether it makes cold plans itself; else somebody beside it does, and `step` stays short
 
     def __post_init__(self) -> None:
         for name in ("period_s", "horizon_s", "hurry", "patience", "stranded"):
@@ -303,7 +304,7 @@ class Replanner:
                 break  # one look is enough: what is flown is proved
         if fine:
             return self._made(m, Kind.KEEP, flight, True, clearance, mover, "nothing keeps farther off")
-        if self._changed or (self._off + 1) % settings.stranded == 0:
+        if settings.cold and (self._changed or (self._off + 1) % settings.stranded == 0):
             cold = self._cold(m)
             if cold is not None:
                 return cold

@@ -32,7 +32,7 @@ def seen_world(mission: Mission) -> Seen | None:
     spheres: list[tuple[float, ...]] = []
     cylinders: list[tuple[float, ...]] = []
     walls: list[tuple[float, ...]] = []
-    for obstacle in mission.planner_world().obstacles:
+    for obstacle in mission.whole_world().obstacles:
         match obstacle:
             case Box(lower, upper):
                 low, high = (lower[0] - north, lower[1] - east, lower[2]), (upper[0] - north, upper[1] - east, upper[2])
