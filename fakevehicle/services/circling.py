@@ -6,6 +6,7 @@ flown in Hold (or Guided) and ends with it.
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from fakevehicle.modes import Refusal
 from fakevehicle.places import Places
@@ -76,7 +77,8 @@ class Circling(Service):
     def _orbit(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         """Radius (below zero: counter-clockwise), speed, where the nose points, how far round [rad], and the centre.
 
-        NaN keeps what is: 10 m, MPC_XY_CRUISE, to the centre, for ever, here, this height.
+        NaN keeps what is: 10 m, MPC_XY_CRUISE, to the centre, for ever, here, this height. The height is above sea
+        level in every frame: so PX4 reads it, and so MAVSDK means it, in a frame relative to home.
         """
         radius, speed, nose, angle = command.params[:4]
         radius = TURN_RADIUS if math.isnan(radius) else radius
@@ -88,7 +90,8 @@ class Circling(Service):
             return denied(f"param3 is {nose:g}, expected 0 (to the centre), 1 or 2")
         if math.isinf(angle):
             return denied(f"param4 is {angle:g}, expected an angle")
-        centre_n = self._place(command)
+        frame = _m.MAV_FRAME_GLOBAL if command.frame in RELATIVE_FRAMES else command.frame
+        centre_n = self._place(replace(command, frame=frame))
         if isinstance(centre_n, Verdict):
             return centre_n
         turns = FOR_EVER if math.isnan(angle) or angle == 0.0 else min(abs(angle) / (2.0 * math.pi), FOR_EVER)

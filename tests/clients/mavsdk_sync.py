@@ -61,9 +61,12 @@ def answers(call: Callable[[], Any]) -> bool:
     return True
 
 
-def place(north: float, east: float, up: float, *, through: bool, stay: float = math.nan) -> MissionItem:
-    """A mission item so many metres from home, at 5 m/s."""
-    nan = math.nan
-    camera, nothing = MissionItem.CameraAction.NONE, MissionItem.VehicleAction.NONE
+def place(
+    north: float, east: float, up: float, *, through: bool, stay: float = math.nan, photo: bool = False
+) -> MissionItem:
+    """A mission item so many metres from home, at 5 m/s; with a photo of what is below, it asks gimbal and camera."""
+    nan, nothing = math.nan, MissionItem.VehicleAction.NONE
+    camera = MissionItem.CameraAction.TAKE_PHOTO if photo else MissionItem.CameraAction.NONE
+    pitch = -90.0 if photo else nan
     latitude, longitude = LATITUDE + north * NORTH, LONGITUDE + east * EAST
-    return MissionItem(latitude, longitude, up, 5.0, through, nan, nan, camera, stay, nan, nan, nan, nan, nothing)
+    return MissionItem(latitude, longitude, up, 5.0, through, pitch, nan, camera, stay, nan, nan, nan, nan, nothing)

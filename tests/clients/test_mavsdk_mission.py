@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("mavsdk")
 
-from mavsdk.plugins.action import Action
+from mavsdk.plugins.action import Action, OrbitYawBehavior
 from mavsdk.plugins.geofence import FenceType, Geofence, GeofenceData, Point, Polygon
 from mavsdk.plugins.mission import Mission, MissionPlan
 from mavsdk.plugins.offboard import Attitude, AttitudeRate, Offboard
@@ -31,7 +31,7 @@ def test_a_mission_is_loaded_read_back_flown_paused_and_returned_from(system: An
         [
             place(6.0, 0.0, 4.0, through=True),
             place(6.0, 8.0, 5.0, through=False, stay=2.0),
-            place(0.0, 8.0, 4.0, through=True),
+            place(0.0, 8.0, 4.0, through=True, photo=True),
         ]
     )
     mission.set_return_to_launch_after_mission(True)
@@ -79,6 +79,9 @@ def test_a_return_climbs_comes_home_lands_and_disarms(system: Any) -> None:
         return math.hypot(north, (position.longitude_deg - home.longitude_deg) / EAST)
 
     until(lambda: away() > 21.0, 20, "the place")
+    to_centre = OrbitYawBehavior.HOLD_FRONT_TO_CIRCLE_CENTER
+    action.do_orbit(4.0, 3.0, to_centre, latitude, longitude, home.absolute_altitude_m + 4.0)
+    until(lambda: away() > math.hypot(20.0, 10.0) + 3.0, 20, "the far side of the circle")
     action.return_to_launch()
     until(lambda: telemetry.flight_mode() == FlightMode.RETURN_TO_LAUNCH, 5, "the return")
     heights: list[float] = []

@@ -37,7 +37,8 @@ def point(pilot: Pilot) -> PointMass:
 
 
 def about(pilot: Pilot, number: int, params: tuple[float, ...], north: float, east: float, up: float) -> int:
-    """Send a command about a place, metres from home; its result."""
+    """Send a command about a place, metres from home; its result. An orbit's height is above sea level in any frame."""
+    up += 488.0 if number == 34 else 0.0
     x, y = round((LATITUDE + north * NORTH) * 1e7), round((LONGITUDE + east * EAST) * 1e7)
     pilot.send(m.MAVLink_command_int_message(1, 1, 6, number, 0, 0, *params, x, y, up))
     return Pilot.ack(pilot.tick(), number)
