@@ -42,12 +42,13 @@ from fakevehicle.services.others import Others
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
 from fakevehicle.services.raw import Raw
-from fakevehicle.services.sensing import Sensing
+from fakevehicle.services.sensing import Sensing, with_traffic
 from fakevehicle.services.service import Service, merged
 from fakevehicle.services.setpoints import Setpoints
 from fakevehicle.services.streams import Streams
 from fakevehicle.services.telemetry import Telemetry
 from fakevehicle.services.timing import Timing
+from fakevehicle.services.words import Words
 from fakevehicle.supervisor import Supervisor
 from fakevehicle.vocabulary import Geodetic, Truth
 from wire.datagram import Datagram
@@ -61,10 +62,6 @@ LOOK_US = 20_000
 tick's physics."""
 MAX_PACKETS = 2048
 """Most packets of one tick; what is more is dropped and counted."""
-QUIET_US = 10_000_000
-"""A refusal of a service that is not there is not put into words again before this."""
-MAX_WARNED = 64
-"""Texts remembered for that; some name what a peer asked for, so there is no end to them."""
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter("MAV_SYS_ID", 1, 1, 255, "", "MAVLink system id", ParameterType.INT32),
@@ -145,17 +142,21 @@ class Vehicle:
         self._supervisor = Supervisor(self.parameters, store, self._places, hover)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
         self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
-        self._streams = Streams(self._outbox, config.links, flavour.rates)
+        movers = None if config.world is None else config.world.movers
+        self._streams = Streams(
+            self._outbox, config.links, lambda profile: with_traffic(flavour.rates(profile), movers)
+        )
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places, flavour)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
         recordings = MemoryFiles() if files is None else files
         named = flavour.named(self.parameters)
         metadata = Metadata(named, READ_ONLY, self._now)
         tree = Tree({PARAM_FILE: lambda query: pack(named, query), **metadata.files}, {"log": recordings})
-        missions = Missions(store, self._supervisor, self._places, self._outbox, self._warn_rarely, flavour.habits)
+        refuse = Words(self._warn, self._now)
+        missions = Missions(store, self._supervisor, self._places, self._outbox, refuse, flavour.habits)
         self._services: tuple[Service, ...] = (
             self._telemetry,
-            Sensing(self._stack),
+            Sensing(self._stack, movers, self._places, self._now),
             Raw(self._stack, self._supervisor),
             self._commands,
             self._setpoints,
@@ -173,10 +174,10 @@ class Vehicle:
                 self._telemetry.gps_global_origin,
             ),
             Circling(self._supervisor, self._places),
-            NoShell(self._outbox, self._warn_rarely),
+            NoShell(self._outbox, refuse),
             metadata,
-            Ftp(tree, self._outbox, self._warn_rarely),
-            Logs(recordings, self._outbox, self._warn_rarely),
+            Ftp(tree, self._outbox, refuse),
+            Logs(recordings, self._outbox, refuse),
             self._streams,
         )
         flavour.attach(
@@ -193,7 +194,7 @@ class Vehicle:
             )
         )
         services = self._services
-        others = Others(self._outbox, self._streams, self._warn)  # for what nobody else takes
+        others = Others(self._outbox, self._streams, refuse)  # for what nobody else takes
         self._handlers = {
             **others.routes(),
             **merged("message", (s.routes() for s in services)),
@@ -207,7 +208,6 @@ class Vehicle:
         self._entered = 0
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
-        self._warned: dict[str, int] = {}  # texts, and when each was last said
         self._now_us: int | None = None
 
     @property
@@ -341,16 +341,6 @@ class Vehicle:
 
     def _warn(self, text: str) -> None:
         self._outbox.text(mavlink.MAV_SEVERITY_WARNING, text)
-
-    def _warn_rarely(self, text: str) -> None:
-        """A warning that a client's next attempt does not bring up again for a while."""
-        said = self._warned.get(text)
-        if said is None or self._now() - said >= QUIET_US:
-            self._warned.pop(text, None)
-            while len(self._warned) >= MAX_WARNED:
-                del self._warned[next(iter(self._warned))]  # said longest ago
-            self._warned[text] = self._now()
-            self._warn(text)
 
     def _now(self) -> int:
         return self._now_us or 0

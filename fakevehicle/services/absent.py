@@ -1,16 +1,16 @@
 """Services this vehicle does not have yet, each with an answer: a client that is told "none" does not wait.
 
 An unanswered request costs a client dearly (seconds, often many), and an honest "none" costs nothing. What
-is refused is also said in words, by `warn`; an empty list is an answer and no refusal. Some clients ask over and over,
-so `warn` is expected to keep quiet about what it has just said. One class a service, so that each can make room for a
-real one by itself.
+is refused is also said in words; an empty list is an answer and no refusal. One class a service, so that each can make
+room for a real one by itself.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from fakevehicle.codec import Message
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Handler, Service
+from fakevehicle.services.words import Words
 from wire.dialect import mavlink
 
 
@@ -20,12 +20,12 @@ class _Absent(Service):
     Parameters
     ----------
     outbox : where answers go.
-    warn : tells people, but not the same thing over and over.
+    refuse : puts a refusal into words.
     """
 
-    def __init__(self, outbox: Outbox, warn: Callable[[str], None]) -> None:
+    def __init__(self, outbox: Outbox, refuse: Words) -> None:
         self._outbox = outbox
-        self._warn = warn
+        self._refuse = refuse
 
 
 class NoShell(_Absent):
@@ -43,4 +43,4 @@ class NoShell(_Absent):
             message.device, mavlink.SERIAL_CONTROL_FLAG_REPLY, 0, 0, 0, bytes(70)
         )
         self._outbox.answer(sender, reply)
-        self._warn("Shell refused: this vehicle has none")
+        self._refuse(sender, "Shell refused: this vehicle has none")

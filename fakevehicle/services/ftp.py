@@ -20,13 +20,14 @@ Refused requests are put into words (STATUSTEXT) besides their NAK; the end of a
 
 import struct
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from fakevehicle.codec import Message
 from fakevehicle.files import MAX_READ, Entry, OpenFile, Tree
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Handler, Service
+from fakevehicle.services.words import Words
 from wire.dialect import mavlink
 
 HEADER = struct.Struct("<HBBBBBBI")
@@ -110,13 +111,13 @@ class Ftp(Service):
     ----------
     tree : the files.
     outbox : where answers go.
-    warn : puts a refusal into words; expected to keep quiet about what it has just said.
+    refuse : puts a refusal into words.
     """
 
-    def __init__(self, tree: Tree, outbox: Outbox, warn: Callable[[str], None]) -> None:
+    def __init__(self, tree: Tree, outbox: Outbox, refuse: Words) -> None:
         self._tree = tree
         self._outbox = outbox
-        self._warn = warn
+        self._refuse = refuse
         self._sessions: dict[Key, Session] = {}
         self._answered: dict[Key, tuple[bytes, bytes, int]] = {}  # the last request, its answer, and when
 
@@ -135,6 +136,7 @@ class Ftp(Service):
         sequence, session, opcode, size, _, _, _, offset = HEADER.unpack_from(raw)
         if opcode in (ACK, NAK):
             return
+        self._asking = sender
         key = sender, session
         known = self._answered.get(key)
         if known is not None and known[0] == raw and now_us - known[2] < REPEAT_US:
@@ -263,7 +265,7 @@ class Ftp(Service):
     def _refusal(self, asked: Request, refusal: Refusal) -> bytes:
         code, reason = refusal
         if reason:
-            self._warn(f"File refused: {reason}")
+            self._refuse(self._asking, f"File refused: {reason}")
         return _answer(asked, NAK, bytes((code,)))
 
     def _send(self, sender: Sender, answer: bytes) -> None:

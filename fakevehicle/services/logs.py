@@ -6,7 +6,7 @@ empty list is one LOG_ENTRY with num_logs 0, a request beyond the end one LOG_DA
 Nothing can be erased; LOG_ERASE has no answer of its own, so the refusal is said in words.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -14,6 +14,7 @@ from fakevehicle.codec import Message
 from fakevehicle.files import Entry, Files
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Handler, Service
+from fakevehicle.services.words import ALONE_US, Words
 from wire.dialect import mavlink
 
 CHUNK = 90
@@ -46,13 +47,13 @@ class Logs(Service):
     ----------
     files : the recordings, all in the root of their tree.
     outbox : where answers go.
-    warn : puts a refusal into words; expected to keep quiet about what it has just said.
+    refuse : puts a refusal into words.
     """
 
-    def __init__(self, files: Files, outbox: Outbox, warn: Callable[[str], None]) -> None:
+    def __init__(self, files: Files, outbox: Outbox, refuse: Words) -> None:
         self._files = files
         self._outbox = outbox
-        self._warn = warn
+        self._refuse = refuse
         self._downloads: dict[Sender, _Download] = {}
         self._listings: dict[Sender, _Listing] = {}
 
@@ -80,7 +81,7 @@ class Logs(Service):
         logs = self._logs()
         self._downloads.pop(sender, None)
         if message.id >= len(logs):
-            self._warn(f"Log refused: there is no log {message.id}")
+            self._refuse(sender, f"Log refused: there is no log {message.id}")
             self._nothing(sender, message.id, message.ofs)
             return
         log = logs[message.id]
@@ -95,9 +96,9 @@ class Logs(Service):
         self._downloads.pop(sender, None)
         self._listings.pop(sender, None)
 
-    def erase(self, _sender: Sender, _message: Message, _now_us: int) -> None:
+    def erase(self, sender: Sender, _message: Message, _now_us: int) -> None:
         """Never."""
-        self._warn("Erasing logs refused: they can only be read")
+        self._refuse(sender, "Erasing logs refused: they can only be read", ALONE_US)
 
     def step(self, now_us: int) -> None:
         """Send the next entries and data, every client in its turn."""

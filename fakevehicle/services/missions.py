@@ -29,6 +29,7 @@ from fakevehicle.services.mission_items import (
 )
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Builder, Handler, Service
+from fakevehicle.services.words import Words
 from fakevehicle.supervisor import Supervisor
 from wire.dialect import mavlink
 
@@ -89,7 +90,7 @@ class Missions(Service):
     supervisor : flies the mission.
     places : turns places into points.
     outbox : where answers go.
-    warn : says in words what is refused, but not at every attempt.
+    refuse : puts a refusal into words.
     habits : of the autopilot that is played.
     """
 
@@ -99,14 +100,14 @@ class Missions(Service):
         supervisor: Supervisor,
         places: Places,
         outbox: Outbox,
-        warn: Callable[[str], None],
+        refuse: Words,
         habits: MissionHabits | None = None,
     ) -> None:
         self._store = store
         self._runner = supervisor.runner
         self._supervisor = supervisor
         self._outbox = outbox
-        self._warn = warn
+        self._say = refuse
         self._places = places
         self.habits = habits or MissionHabits()
         self._upload: _Upload | None = None
@@ -346,14 +347,14 @@ class Missions(Service):
         self._accept(up.sender, up.kind.value)
         unfit = self._supervisor.why_mission_unfit()
         if unfit is not None and up.kind is not Kind.RALLY:
-            self._warn(f"Mission not possible: {unfit.value}")
+            self._say(up.sender, f"Mission not possible: {unfit.value}")
 
     def _accept(self, sender: Sender, kind: int) -> None:
         self._answer(sender, kind, _m.MAV_MISSION_ACCEPTED)
 
     def _refuse(self, sender: Sender, kind: int, flaw: Flaw) -> None:
         self._answer(sender, kind, flaw.result)
-        self._warn(f"Plan refused: {flaw.reason}")
+        self._say(sender, f"Plan refused: {flaw.reason}")
 
     def _answer(self, sender: Sender, kind: int, result: int) -> None:
         self._outbox.answer(sender, _m.MAVLink_mission_ack_message(sender.system_id, sender.component_id, result, kind))

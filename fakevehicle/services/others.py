@@ -1,16 +1,18 @@
-"""Requests and orders of services this vehicle does not have: each is answered, once in words, so that nobody wonders.
+"""Requests and orders of services this vehicle does not have: each is answered in words, so that nobody wonders.
 
-Some clients send them over and over without asking for an answer (REQUEST_DATA_STREAM, joystick positions), so the
-words for one kind of message are said once in a vehicle's life. Where the protocol has an answer of its own, that is
-sent every time. What is meant for other devices than an autopilot (cameras' reports, CAN frames) needs none.
+Some clients send a few of them over and over without asking for an answer (REQUEST_DATA_STREAM, joystick positions):
+those are put into words once in `SELDOM_US` for each peer, the others whenever somebody asks again (`Words`). Where the
+protocol has an answer of its own, that is sent every time. What is meant for other devices than an autopilot (cameras'
+reports, CAN frames) needs none.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from fakevehicle.codec import Message
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.service import Handler, Service
 from fakevehicle.services.streams import Streams
+from fakevehicle.services.words import ALONE_US, Words
 from wire.dialect import mavlink
 
 _m = mavlink
@@ -53,33 +55,49 @@ REASONS: Mapping[int, str] = {
     _m.MAVLINK_MSG_ID_PARAM_EXT_REQUEST_READ: _NO_EXTENDED,
 }
 """Why each is refused."""
+OVER_AND_OVER = frozenset(
+    {
+        _m.MAVLINK_MSG_ID_REQUEST_DATA_STREAM,
+        _m.MAVLINK_MSG_ID_MANUAL_CONTROL,
+        _m.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE,
+        _m.MAVLINK_MSG_ID_MANUAL_SETPOINT,
+        _m.MAVLINK_MSG_ID_SET_ACTUATOR_CONTROL_TARGET,
+        _m.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_ATTITUDE,
+        _m.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_PITCHYAW,
+        _m.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_MANUAL_CONTROL,
+    }
+)
+"""Kinds that clients send in streams."""
+SELDOM_US = 60_000_000
 
 
 class Others(Service):
-    """Refuses what has no service, and answers the old request for AUTOPILOT_VERSION.
+    """Refuses what has no service, and answers what has an answer all the same.
 
     Parameters
     ----------
     outbox : where answers go.
     streams : builds AUTOPILOT_VERSION.
-    warn : tells people.
+    refuse : puts a refusal into words.
     """
 
-    def __init__(self, outbox: Outbox, streams: Streams, warn: Callable[[str], None]) -> None:
+    def __init__(self, outbox: Outbox, streams: Streams, refuse: Words) -> None:
         self._outbox = outbox
         self._streams = streams
-        self._warn = warn
-        self._said: set[int] = set()
+        self._say = refuse
 
     def routes(self) -> Mapping[int, Handler]:
-        """Every kind in `REASONS`, and two with answers of their own; a real service for one goes before."""
+        """Every kind in `REASONS`, and three with answers of their own; a real service for one goes before."""
         found: dict[int, Handler] = dict.fromkeys(REASONS, self._refuse)
         found[_m.MAVLINK_MSG_ID_PARAM_EXT_SET] = self._param_ext_set
         found[_m.MAVLINK_MSG_ID_AUTOPILOT_VERSION_REQUEST] = self._version
+        found[_m.MAVLINK_MSG_ID_TERRAIN_CHECK] = self._terrain
         return found
 
-    def _refuse(self, _sender: Sender, message: Message, _now_us: int) -> None:
-        self._say_once(message, REASONS[type(message).id])
+    def _refuse(self, sender: Sender, message: Message, _now_us: int) -> None:
+        number = type(message).id
+        text = f"{message.get_type()} refused: {REASONS[number]}"
+        self._say(sender, text, SELDOM_US if number in OVER_AND_OVER else ALONE_US)
 
     def _param_ext_set(self, sender: Sender, message: Message, _now_us: int) -> None:
         """PARAM_EXT_ACK, failed."""
@@ -92,7 +110,7 @@ class Others(Service):
                 mavlink.PARAM_ACK_FAILED,
             ),
         )
-        self._say_once(message, _NO_EXTENDED)
+        self._say(sender, f"PARAM_EXT_SET refused: {_NO_EXTENDED}")
 
     def _version(self, sender: Sender, _message: Message, _now_us: int) -> None:
         """AUTOPILOT_VERSION_REQUEST, which came before MAV_CMD_REQUEST_MESSAGE."""
@@ -100,8 +118,6 @@ class Others(Service):
         if version is not None:
             self._outbox.answer(sender, version)
 
-    def _say_once(self, message: Message, reason: str) -> None:
-        number = type(message).id
-        if number not in self._said:
-            self._said.add(number)
-            self._warn(f"{message.get_type()} refused: {reason}")
+    def _terrain(self, sender: Sender, message: Message, _now_us: int) -> None:
+        """TERRAIN_CHECK, by TERRAIN_REPORT: a spacing of 0 says that the height there is not known."""
+        self._outbox.answer(sender, mavlink.MAVLink_terrain_report_message(message.lat, message.lon, 0, 0, 0, 0, 0))

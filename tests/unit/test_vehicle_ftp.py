@@ -11,6 +11,7 @@ from fakevehicle.services import ftp, logs
 from fakevehicle.services.ftp import Ftp
 from fakevehicle.services.logs import Logs
 from fakevehicle.services.outbox import Outbox, Sender
+from fakevehicle.services.words import Words
 from wire.dialect import mavlink
 
 ACK, NAK = 128, 129
@@ -26,11 +27,11 @@ class Client:
     def __init__(self, tree: Tree | None = None) -> None:
         self.outbox = Outbox(1, ["gcs"])
         self.said: list[str] = []
+        self.now_us = 0
         self.log = MemoryFiles({"flight.mcap": LOG, "empty": b""})
         tree = tree or Tree({"@PARAM/param.pck": lambda query: b"packed " + query.encode()}, {"log": self.log})
-        self.ftp = Ftp(tree, self.outbox, self.said.append)
+        self.ftp = Ftp(tree, self.outbox, Words(self.said.append, lambda: self.now_us))
         self.sequence = 0
-        self.now_us = 0
 
     def send(self, opcode: int, data: bytes = b"", **fields: int) -> bytes:
         """Send one request; what was sent, to be sent again."""
@@ -291,7 +292,8 @@ class LogClient:
     def __init__(self, files: Files) -> None:
         self.outbox = Outbox(1, ["gcs"])
         self.said: list[str] = []
-        self.logs = Logs(files, self.outbox, self.said.append)
+        self.now_us = 0
+        self.logs = Logs(files, self.outbox, Words(self.said.append, lambda: self.now_us))
 
     def hear(self, ticks: int = 1) -> list[Any]:
         for tick in range(ticks):

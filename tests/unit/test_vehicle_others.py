@@ -70,15 +70,60 @@ def test_every_request_of_the_dialect_gets_an_answer_within_a_tick_or_two(
     assert silent == AS_THERE[autopilot]
 
 
-def test_what_it_has_no_service_for_is_refused_in_words_once(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def pilot(monkeypatch: pytest.MonkeyPatch) -> Pilot:
     monkeypatch.setattr(fakevehicle.vehicle, "FlightStack", PointMass)
     pilot = Pilot(Vehicle(VehicleConfig(links=(LinkConfig("onboard"),))))
     pilot.run(1.0)
-    for _ in range(4):
+    return pilot
+
+
+def refusals(pilot: Pilot, of: str) -> int:
+    return len([text for text in pilot.texts() if of in text])
+
+
+def test_what_clients_send_over_and_over_is_refused_in_words_once_a_minute(pilot: Pilot) -> None:
+    for count in (1, 1, 2):
         pilot.send(m.MAVLink_request_data_stream_message(1, 1, 0, 4, 1))
-        pilot.run(15.0)
-    refusals = [text for text in pilot.texts() if "REQUEST_DATA_STREAM" in text]
-    assert refusals == ["REQUEST_DATA_STREAM refused: ask for messages by MAV_CMD_SET_MESSAGE_INTERVAL"]
+        pilot.run(30.5)
+        assert refusals(pilot, "REQUEST_DATA_STREAM refused: ask for messages by MAV_CMD_SET_MESSAGE_INT") == count
+
+
+ASKED = [
+    (m.MAVLink_param_ext_request_read_message(1, 1, b"A", -1), "PARAM_EXT_REQUEST_READ refused"),
+    (m.MAVLink_fence_fetch_point_message(1, 1, 0), "FENCE_FETCH_POINT refused"),
+    (m.MAVLink_log_erase_message(1, 1), "Erasing logs refused"),
+]
+
+
+@pytest.mark.parametrize(("request_", "words"), ASKED)
+def test_who_asks_again_later_is_told_again_and_so_is_everybody_else(pilot: Pilot, request_: Any, words: str) -> None:
+    for count in (1, 1, 1, 2):
+        pilot.send(request_)
+        pilot.run(1.1)
+        assert refusals(pilot, words) == count
+    pilot.peer = ("127.0.0.1", 50_001)
+    pilot.send(request_)
+    pilot.tick()
+    assert refusals(pilot, words) == 3
+
+
+def test_a_reason_beside_an_answer_is_told_to_each_client(pilot: Pilot) -> None:
+    for port, count in ((50_000, 1), (50_000, 1), (50_001, 2)):
+        pilot.peer = ("127.0.0.1", port)
+        pilot.send(m.MAVLink_mission_request_int_message(1, 1, 7, 0))
+        pilot.run(1.0)
+        assert refusals(pilot, "Plan refused: there is no item 7") == count
+
+
+def test_the_height_of_the_terrain_is_told_to_be_unknown(pilot: Pilot) -> None:
+    pilot.send(m.MAVLink_terrain_check_message(473_977_420, 85_455_940))
+    pilot.tick()
+    report = pilot.last("TERRAIN_REPORT")
+    assert (report.lat, report.lon, report.spacing) == (473_977_420, 85_455_940, 0)
+
+
+def test_old_requests_have_their_own_answers(pilot: Pilot) -> None:
     pilot.send(m.MAVLink_autopilot_version_request_message(1, 1))
     assert [g.get_type() for g in pilot.tick()].count("AUTOPILOT_VERSION") == 1
     pilot.send(m.MAVLink_param_ext_set_message(1, 1, b"A", b"1", 1))
