@@ -6,6 +6,8 @@ numbers, through a `Channel`:
     OFF     nothing comes            STUCK   the last word, for ever
     BIAS    word + magnitude         NOISE   word + magnitude * n          DELAY   the word of `magnitude` seconds ago
 
+A motor says nothing; it can be OFF, or keep a share of its thrust, which is what BIAS means to it. Nothing else.
+
 Several hold together, in the order in which they were given.
 """
 
@@ -91,11 +93,16 @@ class Fault:
         numbers = len(self.magnitude)
         if self.kind in (FaultKind.BIAS, FaultKind.NOISE) and numbers not in (1, WORDS.get(self.sensor, 1)):
             raise ValueError(f"{what}: {numbers} numbers, expected 1 or {WORDS.get(self.sensor, 1)}")
+        if self.sensor is Sensor.MOTOR and self.kind is not FaultKind.OFF:
+            if self.kind is not FaultKind.BIAS:
+                raise ValueError(f"{what}: a motor can be off, or have a bias, the share of its thrust that is left")
+            if not 0.0 <= self.magnitude[0] <= 1.0:
+                raise ValueError(f"{what}: {self.magnitude[0]:g}, expected the share of thrust that is left, 0..1")
         if not 0 <= self.index < INSTANCES.get(self.sensor, 1):
             raise ValueError(f"{what}: number {self.index + 1}, this vehicle has {INSTANCES.get(self.sensor, 1)}")
 
 
-TYPICAL: dict[Sensor, dict[FaultKind, tuple[float, ...]]] = {
+_TYPICAL: dict[Sensor, dict[FaultKind, tuple[float, ...]]] = {
     Sensor.GYRO: {FaultKind.BIAS: (0.2,), FaultKind.NOISE: (0.2,), FaultKind.DELAY: (0.02,)},
     Sensor.ACCEL: {FaultKind.BIAS: (1.0,), FaultKind.NOISE: (2.0,), FaultKind.DELAY: (0.02,)},
     Sensor.GPS: {
@@ -110,7 +117,16 @@ TYPICAL: dict[Sensor, dict[FaultKind, tuple[float, ...]]] = {
     Sensor.BATTERY: {FaultKind.BIAS: (-2.0, 0.0, -0.5), FaultKind.NOISE: (1.0, 5.0, 0.1), FaultKind.DELAY: (2.0,)},
     Sensor.MOTOR: {FaultKind.BIAS: (0.65,)},
 }
-"""Magnitudes for who asks for a fault without one, as MAV_CMD_INJECT_FAILURE does: large enough to be noticed."""
+
+
+def typical(sensor: Sensor, kind: FaultKind) -> tuple[float, ...] | None:
+    """A magnitude for who asks for a fault without one, as MAV_CMD_INJECT_FAILURE does: large enough to be noticed.
+
+    None: this sensor has no such fault.
+    """
+    plain = kind is FaultKind.OFF or (kind is FaultKind.STUCK and sensor is not Sensor.MOTOR)
+    return () if plain else _TYPICAL[sensor].get(kind)
+
 
 _TEXT = re.compile(
     r"(?P<sensor>[a-z]+)(?P<index>\d?):(?P<kind>[a-z]+)(=(?P<magnitude>[^@]+))?(@(?P<start>[\d.]+)(-(?P<end>[\d.]+))?)?"

@@ -176,6 +176,8 @@ class FlightStack:
         if self._parameters.version != self._version:
             self._reload()
         motors = tick.RESTING if not armed else tick.IDLE if setpoint is None else tick.FLYING
+        if motors == tick.RESTING != self._motors:
+            self._control.update(self._parameters, at_rest=True)  # orders that were asked for in flight
         if motors == tick.FLYING:
             if setpoint is not self._setpoint_from and setpoint is not None:
                 self._follow(setpoint)
@@ -220,8 +222,7 @@ class FlightStack:
         if self._faults.concerns(Sensor.MOTOR):
             body["effect"] = 1.0
             for fault in self._faults.active(Sensor.MOTOR, now_us):
-                left = fault.magnitude[0] if fault.magnitude and fault.kind is not FaultKind.OFF else 0.0
-                body["effect"][fault.index % 4] = min(max(left, 0.0), 1.0)
+                body["effect"][fault.index] = 0.0 if fault.kind is FaultKind.OFF else fault.magnitude[0]
 
     def inject(self, fault: Fault) -> None:
         """Add a fault to the schedule."""

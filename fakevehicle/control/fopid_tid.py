@@ -30,6 +30,9 @@ In e_c, w is no more than the loop's own output u - u_ff, and zero when that is 
 feed-forward alone is too much, the loop has nothing to answer for and must not wind up against it. With Kp = 0 no error
 would have given u_sat; then e_c = e, which is conditional integration.
 
+Gains change without a bump: the integral takes up the difference. What of it is beyond the integral's limit, which may
+have just shrunk, or is zero where there is no integral gain, is not cut off but fades with the time constant `FADE`.
+
 Records instead of arguments: `LOOP` holds one loop's numbers, `BANK` the filter coefficients and states of all loops.
 """
 
@@ -38,6 +41,9 @@ import numpy as np
 from fakevehicle.control.fractional import SECTIONS, run_sections, sections
 from fakevehicle.jit import kernel
 from fakevehicle.vocabulary import FloatArray
+
+FADE = 1.5
+"""Time constant with which an integral beyond its limit comes back to it [s]."""
 
 LOOP = np.dtype(
     [
@@ -48,7 +54,7 @@ LOOP = np.dtype(
         ("kd", "f8"),
         ("b", "f8"),  # setpoint weight of the proportional term
         ("period", "f8"),
-        ("limit", "f8"),  # the integral stays within +-limit, in units of u
+        ("limit", "f8"),  # the integral stays within +-limit, in units of u, or comes back to it
         ("back", "f8"),  # 1 / Kp, 0 without Kp: from u to the error it stands for
         ("n_tilt", "i8"),
         ("n_integral", "i8"),
@@ -93,13 +99,16 @@ def fopid_step(loops, coefficients, states, i, setpoint, measured, forward, push
     conditioned = setpoint - measured
     if pushed * loop.own < 0.0:
         conditioned += loop.back * (pushed if abs(pushed) < abs(loop.own) else -loop.own)
+    bound = loop.limit
+    if abs(loop.integral) > bound:
+        bound += (1.0 - loop.period / FADE) * (abs(loop.integral) - bound)
     loop.t_out = run_sections(coefficients, states, 3 * i + TILT, loop.n_tilt, conditioned)
     if not pushed * conditioned < 0.0:
         driven = loop.ki * run_sections(coefficients, states, 3 * i + INTEGRAL, loop.n_integral, conditioned)
         driven += loop.ki0 * conditioned
         loop.integral += 0.5 * loop.period * (driven + loop.driven)
         loop.driven = driven
-    loop.integral = min(max(loop.integral, -loop.limit), loop.limit)
+    loop.integral = min(max(loop.integral, -bound), bound)
     loop.d_out = 0.0
     if loop.kd != 0.0:
         if loop.primed == 0.0:  # as if the first measurement had stood there for ever
@@ -149,25 +158,22 @@ class LoopBank:
     ) -> None:
         """Change loop `i`'s gains without a jump of its output: I takes up u_prev - (the other terms with new gains).
 
-        All of them: Kt and Kd may come from 0, and b counts as a gain. Only a loop without an integral has nothing to
-        take the difference up with, and one whose integral would pass `limit` takes up no more than that.
+        All of them: Kt and Kd may come from 0, Ki and the limit may go there, and b counts as a gain. What I may not
+        keep, because it is beyond `limit` or nothing feeds it any more, fades (`FADE`).
 
         Parameters
         ----------
         kp, kt, ki, ki0, kd, b : as in the law above.
-        limit : bound of the integral, in units of u.
+        limit : bound of the integral, in units of u; taken for zero without Ki and Ki0.
         """
         loop = self.loops[i]
         before = self._without_integral(i) + loop["integral"]
         if loop["kd"] == 0.0:  # its filters stood still: let them begin anew, as if y had never changed
             loop["primed"], loop["d_out"] = 0.0, 0.0
         loop["kp"], loop["kt"], loop["ki"], loop["ki0"], loop["kd"], loop["b"] = kp, kt, ki, ki0, kd, b
-        loop["limit"] = limit
+        loop["limit"] = limit if ki + ki0 > 0.0 else 0.0
         loop["back"] = 1.0 / kp if kp > 0.0 else 0.0
-        after = self._without_integral(i)
-        loop["integral"] = min(max(before - after, -limit), limit)
-        if ki == ki0 == 0.0:
-            loop["integral"] = 0.0
+        loop["integral"] = before - self._without_integral(i)
 
     def _without_integral(self, i: int) -> float:
         """The other terms of loop `i` at the last call, with the gains it has now."""
@@ -215,7 +221,7 @@ class LoopBank:
         """Forget the errors of the past but keep the trim: the integral takes over what the tilt term was giving."""
         loop = self.loops[i]
         if loop["ki"] + loop["ki0"] > 0.0:
-            carried = loop["integral"] + loop["kt"] * loop["t_out"]
-            loop["integral"] = min(max(carried, -loop["limit"]), loop["limit"])
+            carried, most = loop["integral"] + loop["kt"] * loop["t_out"], max(loop["limit"], abs(loop["integral"]))
+            loop["integral"] = min(max(carried, -most), most)
         self.states[3 * i : 3 * i + 2] = 0.0
         loop["driven"], loop["t_out"] = 0.0, 0.0

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from fakevehicle.codec import Message
-from fakevehicle.faults import INSTANCES, TYPICAL, Fault, FaultKind, Sensor
+from fakevehicle.faults import INSTANCES, Fault, FaultKind, Sensor, typical
 from fakevehicle.fence import FenceMonitor
 from fakevehicle.modes import Event, Refusal
 from fakevehicle.places import Places
@@ -239,9 +239,11 @@ class Navigation(Service):
             self._mend(sensor, now_us, instance - 1 if instance else None)
             return ACCEPTED
         fault = _FAILURES.get(kind)
-        magnitude = () if fault in _PLAIN else TYPICAL[sensor].get(fault) if fault is not None else None
+        magnitude = None if fault is None else typical(sensor, fault)
         if fault is None or magnitude is None:
             known = "ok (0), off (1), stuck (2), garbage (3), wrong (4) or delayed (6)"
+            if sensor is Sensor.MOTOR:
+                known = "ok (0), off (1) or wrong (4)"
             return Verdict(_m.MAV_RESULT_UNSUPPORTED, f"param2 is {kind}, expected {known}")
         for index in (instance - 1,) if instance else range(most):
             self._inject(Fault(sensor, fault, now_us, None, magnitude, index))
@@ -266,4 +268,3 @@ _FAILURES = {
     _m.FAILURE_TYPE_WRONG: FaultKind.BIAS,
     _m.FAILURE_TYPE_DELAYED: FaultKind.DELAY,
 }
-_PLAIN = (FaultKind.OFF, FaultKind.STUCK)

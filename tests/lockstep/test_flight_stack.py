@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from fakevehicle.airframe import load_airframe
-from fakevehicle.control.gains import PAPER_GAINS
+from fakevehicle.control.gains import PAPER_GAINS, ControlTables
 from fakevehicle.flight import PARAMETERS, FlightStack
 from fakevehicle.params import ParameterSet
 from fakevehicle.vocabulary import FloatArray, Geodetic, Setpoint
@@ -221,6 +221,31 @@ def test_gains_change_in_flight_without_a_bump() -> None:
     np.testing.assert_allclose(flight.stack.control.attitude_setpoint_q_nb, before, atol=0.01)
     e = errors(flight.fly(5.0, still(hover)))
     assert float(np.linalg.norm(e, axis=1).max()) < 0.4
+
+
+@pytest.mark.parametrize(("name", "value"), [("FT_VXY_KI", 0.0), ("FT_VXY_ILIM", 0.5)])
+def test_taking_the_trim_away_in_wind_does_not_jolt_it(name: str, value: float) -> None:
+    flight = Flight(seed=8, wind=(8.0, 0.0, 0.0))
+    hover = flight.climb()
+    flight.fly(8.0, still(hover))
+    before, motors = flight.stack.control.attitude_setpoint_q_nb, flight.stack.control.motor
+    flight.set.set(name, value)
+    flight.fly(0.004, still(hover))
+    np.testing.assert_allclose(flight.stack.control.attitude_setpoint_q_nb, before, atol=0.005)
+    np.testing.assert_allclose(flight.stack.control.motor, motors, atol=0.01)
+
+
+def test_orders_asked_for_in_flight_are_those_of_the_next_flight() -> None:
+    flight = Flight()
+    hover = flight.climb()
+    first = flight.stack._control.bank.coefficients.copy()
+    flight.set.set("FT_VXY_LAMBDA", 0.7)
+    flight.fly(0.1, still(hover))
+    np.testing.assert_array_equal(flight.stack._control.bank.coefficients, first)
+    flight.fly(0.004, None, armed=False)
+    wanted = ControlTables(load_airframe("x500"), flight.set).bank.coefficients
+    assert (wanted != first).any()
+    np.testing.assert_array_equal(flight.stack._control.bank.coefficients, wanted)
 
 
 @pytest.mark.parametrize("value", [1e30, -1e308, math.inf, -math.inf])

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fakevehicle.faults import MOST, Channel, Fault, FaultKind, FaultSchedule, Sensor, parse_fault
+from fakevehicle.faults import MOST, Channel, Fault, FaultKind, FaultSchedule, Sensor, parse_fault, typical
 from fakevehicle.sensors.imu import GYRO_RANGE, IMU, Instability, integrate_imu, read_gyro, set_faults
 
 
@@ -38,6 +38,11 @@ BAD = [
     "gps2:off",
     "gps:bias=1,2",
     "range:noise=1,2",
+    "motor:noise=0.3",
+    "motor:delay=0.5",
+    "motor:stuck",
+    "motor:bias=1.5",
+    "motor:bias=-0.1",
 ]
 
 
@@ -45,6 +50,19 @@ BAD = [
 def test_a_fault_that_cannot_be_is_refused_with_its_name(text: str) -> None:
     with pytest.raises(ValueError, match="fault"):
         parse_fault(text)
+
+
+def test_a_motor_says_nothing_that_could_be_stuck_late_or_noisy() -> None:
+    assert typical(Sensor.MOTOR, FaultKind.OFF) == ()
+    assert typical(Sensor.BARO, FaultKind.STUCK) == ()
+    for kind in FaultKind:
+        for sensor in Sensor:
+            magnitude = typical(sensor, kind)
+            assert (magnitude is None) == (sensor is Sensor.MOTOR and kind not in (FaultKind.OFF, FaultKind.BIAS))
+            if magnitude is not None:
+                assert Fault(sensor, kind, 0, None, magnitude).kind is kind
+    with pytest.raises(ValueError, match="motor:stuck: a motor can be off, or have a bias"):
+        parse_fault("motor2:stuck")
 
 
 def test_a_schedule_knows_what_holds_when_and_forgets_the_oldest_of_too_many() -> None:

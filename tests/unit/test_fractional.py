@@ -139,6 +139,23 @@ def test_no_gain_bumps_the_output_not_even_the_setpoint_s_weight_or_a_term_that_
     assert run(b, 1.0, y) == pytest.approx(u, abs=3e-3)
 
 
+@pytest.mark.parametrize(("change", "kept"), [({"ki": 0.0}, 0.0), ({"limit": 0.5}, 0.5)])
+def test_an_integral_that_may_not_stay_as_large_fades_instead_of_vanishing(
+    change: dict[str, float], kept: float
+) -> None:
+    gains = {"kp": 2.0, "kt": 0.0, "ki": 3.0, "ki0": 0.0, "kd": 0.0, "b": 1.0, "limit": 1e9}
+    b = bank(lam=0.9, **gains)
+    for _ in range(2000):
+        u = run(b, 1.0, 0.5)
+    trim = float(b.loops[0]["integral"])
+    assert trim > 2.0
+    b.set_gains(0, **(gains | change))
+    outputs = [u, *(run(b, 1.0, 1.0 - 0.5) for _ in range(9000))]
+    # no jump: a sample takes no more than the excess over 1.5 s; after six of those little is left of it
+    assert np.abs(np.diff(outputs)).max() < 1.1 * (trim - kept) * PERIOD / 1.5
+    assert float(b.loops[0]["integral"]) == pytest.approx(kept, abs=0.01)
+
+
 def test_a_derivative_that_was_off_begins_without_the_memory_of_when_it_was_on() -> None:
     gains = {"kp": 2.0, "ki": 3.0, "kt": 0.0, "ki0": 0.0, "b": 1.0, "limit": 1e9}
     b = bank(mu=0.8, kd=0.5, **gains)
