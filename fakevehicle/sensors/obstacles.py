@@ -7,7 +7,8 @@ with the body, one tilted up, one down, 72 directions each, as OBSTACLE_DISTANCE
 
 A ray o + t d meets a box between its slabs, a sphere and an upright cylinder where a quadratic says, and a wall where
 it crosses its vertical plane within its length and height; from within a solid the distance is 0. Of a large world
-only what is near is asked (`Nearby`), and of each kind at most the nearest `MOST_NEAR`.
+only what is near is asked (`Nearby`), and of each kind at most the nearest `MOST_NEAR`. What moves or appears in flight
+(`movers`) is added to that for each round.
 """
 
 import math
@@ -17,6 +18,7 @@ import numpy as np
 
 from fakevehicle.faults import Channel
 from fakevehicle.jit import kernel
+from fakevehicle.sensors.movers import MOST, Movers, PopUp
 from fakevehicle.vocabulary import FloatArray, ObstacleScan
 
 SECTORS = 72
@@ -115,16 +117,20 @@ class World:
     spheres : (n, 4) centre and radius.
     cylinders : (n, 5) centre of the axis north and east, radius, upper and lower end (down coordinates).
     walls : (n, 6) upright sides of prisms: one end north and east, the other, upper and lower edge.
+    movers : balls that fly about; None: nothing does.
+    popups : what appears in flight.
 
     Raises
     ------
-    ValueError : an array is not of that shape, or not finite.
+    ValueError : an array is not of that shape, or not finite; too many pop-ups.
     """
 
     boxes: FloatArray = field(default_factory=lambda: np.zeros((0, 6)))
     spheres: FloatArray = field(default_factory=lambda: np.zeros((0, 4)))
     cylinders: FloatArray = field(default_factory=lambda: np.zeros((0, 5)))
     walls: FloatArray = field(default_factory=lambda: np.zeros((0, 6)))
+    movers: Movers | None = None
+    popups: tuple[PopUp, ...] = ()
 
     def __post_init__(self) -> None:
         for name, width in (("boxes", 6), ("spheres", 4), ("cylinders", 5), ("walls", 6)):
@@ -132,6 +138,8 @@ class World:
             if array.ndim != 2 or array.shape[1] != width or not np.isfinite(array).all():
                 raise ValueError(f"{name} of shape {array.shape}: expected (n, {width}) finite numbers")
             object.__setattr__(self, name, array)
+        if len(self.popups) > MOST:
+            raise ValueError(f"{len(self.popups)} pop-ups, expected at most {MOST}")
 
     def cast(self, origin_n: FloatArray, directions_n: FloatArray, range_max: float) -> FloatArray:
         """Distance to the nearest solid along rays, (m,) [m]; infinity where there is none within `range_max`.
@@ -150,6 +158,31 @@ class World:
 
     def near(self, position_n: FloatArray, radius: float) -> "World":
         """The solids of which some part is within `radius` [m] of a point, at most the nearest `MOST_NEAR` a kind."""
+        boxes, spheres, cylinders, walls = self._gaps(position_n)
+        return World(
+            _nearest(self.boxes, boxes, radius),
+            _nearest(self.spheres, spheres, radius),
+            _nearest(self.cylinders, cylinders, radius),
+            _nearest(self.walls, walls, radius),
+        )
+
+    def gap(self, position_n: FloatArray) -> float:
+        """Distance from a point, (3,), to the nearest solid [m]; infinite when there is none."""
+        return min((float(gaps.min()) for gaps in self._gaps(position_n) if len(gaps)), default=math.inf)
+
+    def with_more(self, other: "World") -> "World":
+        """These solids and those."""
+        return World(
+            np.concatenate([self.boxes, other.boxes]),
+            np.concatenate([self.spheres, other.spheres]),
+            np.concatenate([self.cylinders, other.cylinders]),
+            np.concatenate([self.walls, other.walls]),
+            self.movers,
+            self.popups,
+        )
+
+    def _gaps(self, position_n: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Distances from a point to each box, sphere, cylinder and (seen from above) wall [m]."""
         p, b, s, c, w = position_n, self.boxes, self.spheres, self.cylinders, self.walls
         gap = np.maximum(np.maximum(b[:, :3] - p, p - b[:, 3:]), 0.0)
         beside = np.maximum(np.hypot(c[:, 0] - p[0], c[:, 1] - p[1]) - c[:, 2], 0.0)
@@ -157,11 +190,11 @@ class World:
         along = w[:, 2:4] - w[:, 0:2]
         share = np.sum((p[:2] - w[:, 0:2]) * along, axis=1) / np.maximum(np.sum(along * along, axis=1), 1e-12)
         foot = w[:, 0:2] + np.clip(share, 0.0, 1.0)[:, None] * along
-        return World(
-            _nearest(b, np.linalg.norm(gap, axis=1), radius),
-            _nearest(s, np.linalg.norm(s[:, :3] - p, axis=1) - s[:, 3], radius),
-            _nearest(c, np.hypot(beside, end), radius),
-            _nearest(w, np.hypot(foot[:, 0] - p[0], foot[:, 1] - p[1]), radius),
+        return (
+            np.linalg.norm(gap, axis=1),
+            np.linalg.norm(s[:, :3] - p, axis=1) - s[:, 3],
+            np.hypot(beside, end),
+            np.hypot(foot[:, 0] - p[0], foot[:, 1] - p[1]),
         )
 
 
@@ -182,15 +215,31 @@ class Nearby:
     """
 
     def __init__(self, world: World) -> None:
-        self._world = world
+        self._world, self._waiting = world, list(world.popups)
         self._part, self._centre_n, self._reach = World(), np.full(3, np.inf), 0.0
 
-    def at(self, position_n: FloatArray, reach: float) -> World:
-        """What can be within `reach` [m] of a point."""
+    def at(self, now_us: int, position_n: FloatArray, reach: float) -> World:
+        """What can be within `reach` [m] of a point at `now_us`."""
+        if self._waiting:
+            self._look_for_popups(now_us, position_n)
         if reach != self._reach or not math.dist(position_n, self._centre_n) <= STRIDE:
             self._part = self._world.near(position_n, reach + STRIDE)
             self._centre_n, self._reach = position_n.copy(), reach
-        return self._part
+        movers = self._world.movers
+        if movers is None:
+            return self._part
+        part, spheres = self._part, movers.spheres(now_us)
+        near = _nearest(spheres, np.linalg.norm(spheres[:, :3] - position_n, axis=1) - spheres[:, 3], reach)
+        return World(part.boxes, np.concatenate([part.spheres, near]), part.cylinders, part.walls)
+
+    def _look_for_popups(self, now_us: int, position_n: FloatArray) -> None:
+        there = [popup.appears(now_us, position_n) for popup in self._waiting]
+        if not any(there):
+            return
+        for popup in (p for p, now in zip(self._waiting, there, strict=True) if now):
+            self._world = self._world.with_more(popup.solids)
+        self._waiting = [p for p, now in zip(self._waiting, there, strict=True) if not now]
+        self._reach = 0.0  # what is near is looked up again
 
 
 def _rings() -> FloatArray:
@@ -226,7 +275,7 @@ class ObstacleSensor:
                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
             ]
         )
-        distance = self._nearby.at(position_n, MAXIMUM).cast(position_n, self._directions_b @ R_nb.T, MAXIMUM)
+        distance = self._nearby.at(now_us, position_n, MAXIMUM).cast(position_n, self._directions_b @ R_nb.T, MAXIMUM)
         said = self._channel.through(now_us, distance + NOISE * self._rng.standard_normal(len(distance)))
         if said is None:
             return None

@@ -44,7 +44,7 @@ class Rangefinder:
         height = max(self._ground - float(position_n[2]), 0.0)
         distance = height / down[2] if down[2] > 1e-3 else math.inf
         if self._nearby is not None:
-            near = self._nearby.at(position_n, self.maximum)
+            near = self._nearby.at(now_us, position_n, self.maximum)
             distance = min(distance, float(near.cast(position_n, np.array([down]), self.maximum)[0]))
         draw = self._rng.standard_normal()
         if math.isfinite(distance):
