@@ -42,7 +42,7 @@ from fakevehicle.services.others import Others
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.parameters import Parameters
 from fakevehicle.services.raw import Raw
-from fakevehicle.services.sensing import Sensing
+from fakevehicle.services.sensing import Sensing, with_traffic
 from fakevehicle.services.service import Service, merged
 from fakevehicle.services.setpoints import Setpoints
 from fakevehicle.services.streams import Streams
@@ -142,7 +142,10 @@ class Vehicle:
         self._supervisor = Supervisor(self.parameters, store, self._places, hover)
         self._outbox = Outbox(config.system_id, [link.name for link in config.links])
         self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
-        self._streams = Streams(self._outbox, config.links, flavour.rates)
+        movers = None if config.world is None else config.world.movers
+        self._streams = Streams(
+            self._outbox, config.links, lambda profile: with_traffic(flavour.rates(profile), movers)
+        )
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places, flavour)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
         recordings = MemoryFiles() if files is None else files
@@ -153,7 +156,7 @@ class Vehicle:
         missions = Missions(store, self._supervisor, self._places, self._outbox, refuse, flavour.habits)
         self._services: tuple[Service, ...] = (
             self._telemetry,
-            Sensing(self._stack),
+            Sensing(self._stack, movers, self._places, self._now),
             Raw(self._stack, self._supervisor),
             self._commands,
             self._setpoints,
