@@ -189,7 +189,7 @@ def test_a_glitch_of_gps_moves_a_holding_vehicle_by_twenty_metres_at_most(second
     """GIVEN a hold WHEN GPS jumps by 100 m THEN a short jump is flown through, and a long one ends in a landing."""
     pilot = hovering(25)
     begin_n = truth_n(pilot)
-    fail(pilot, Sensor.GPS, FaultKind.BIAS, seconds, 60.0, -80.0, 0.0)
+    fail(pilot, Sensor.GPS, FaultKind.BIAS, seconds, 60.0, -80.0, 0.0, 0.0, 0.0, 0.0)
     away = 0.0
     for _ in range(60):
         pilot.run(0.5)
