@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from companion.mission import Mission, Step
+from companion.mission import Mission
 from companion.profile import StraightMove
 from companion.seam import FloatArray, PlanWanted, Reference
+from companion.steps import Step
 from planner import Limits, Trajectory
 
 SPOOL_UP_S = 1.0

@@ -9,109 +9,34 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, field_validator, model_validator
+from pydantic import Field, PrivateAttr, field_validator, model_validator
 
+from companion.geodesy import Geodetic
+from companion.geofence import FenceModel, Geofence
 from companion.mapfiles import DEFAULT_AXES, Axes, cloud_in_ned, voxels_in_ned
 from companion.seam import Vector
-from planner import Box, Cylinder, Limits, PointCloud, Prism, Sphere, VoxelGrid, World
+from companion.shapes import (
+    Coordinate,
+    CylinderShape,
+    Extent,
+    Finite,
+    Located,
+    Model,
+    Origin,
+    Positive,
+    PrismShape,
+    SphereShape,
+)
+from companion.steps import Step, flaw_in_order
+from planner import Box, Cylinder, Limits, PointCloud, Sphere, VoxelGrid, World
 from planner.errors import WorldFileError
-from planner.prism import MOST_CORNERS
 from planner.worlds import Obstacle as PlannerObstacle
 
 MAX_MAP_FILES = 16
 """Voxel and cloud files of one mission."""
 
-Coordinate = Annotated[float, Field(ge=-1e5, le=1e5)]  # [m]: local frames are flat that far, and floats are fine
-Size = Annotated[float, Field(gt=0, le=1e5)]  # [m]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
-
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-
-class Range(_Model):
-    """A closed interval, written `[low, high]` [m]."""
-
-    low: Coordinate
-    high: Coordinate
-
-    @model_validator(mode="before")
-    @classmethod
-    def _from_pair(cls, value: Any) -> Any:
-        if isinstance(value, list | tuple) and len(value) == 2:
-            return {"low": value[0], "high": value[1]}
-        raise ValueError("expected a pair [low, high]")
-
-    @model_validator(mode="after")
-    def _ordered(self) -> "Range":
-        if self.low >= self.high:
-            raise ValueError(f"expected low < high, found [{self.low:g}, {self.high:g}]")
-        return self
-
-
-class Extent(_Model):
-    """An axis-aligned block of space [m]."""
-
-    north: Range
-    east: Range
-    altitude: Range
-
-
-class Place(_Model):
-    """A point [m] from the world origin."""
-
-    north: Coordinate
-    east: Coordinate
-    altitude: Coordinate
-
-    def ned(self) -> Vector:
-        """The point in the mission frame, z down."""
-        return (self.north, self.east, -self.altitude)
-
-
-class CylinderShape(_Model):
-    """An upright cylinder [m]."""
-
-    north: Coordinate
-    east: Coordinate
-    radius: Size
-    altitude: Range
-
-
-class SphereShape(_Model):
-    north: Coordinate
-    east: Coordinate
-    altitude: Coordinate
-    radius: Size
-
-
-class Corner(_Model):
-    """A corner of an outline seen from above [m]."""
-
-    north: Coordinate
-    east: Coordinate
-
-
-class PrismShape(_Model):
-    """An upright prism over a simple polygon, convex or not [m]."""
-
-    corners: Annotated[list[Corner], Field(min_length=3, max_length=MOST_CORNERS)]
-    altitude: Range
-
-    @model_validator(mode="after")
-    def _simple(self) -> "PrismShape":
-        self.in_ned()
-        return self
-
-    def in_ned(self) -> Prism:
-        """The planner's prism; ValueError unless the corners are those of a simple polygon."""
-        corners = [(corner.north, corner.east) for corner in self.corners]
-        return Prism(corners, (-self.altitude.high, -self.altitude.low))
-
-
-class MapFile(_Model):
+class MapFile(Model):
     """A file of voxels, beside the mission file unless its path says otherwise."""
 
     file: Annotated[str, Field(min_length=1, max_length=1000, pattern=r"^[^\x00]+$")]
@@ -130,7 +55,7 @@ class CloudFile(MapFile):
     resolution: Annotated[float, Field(ge=0.001, le=1000)] | None = None  # edge of its voxels [m]
 
 
-class Obstacle(_Model):
+class Obstacle(Model):
     """Exactly one of box, cylinder, sphere, prism, voxels and cloud."""
 
     box: Extent | None = None
@@ -149,7 +74,7 @@ class Obstacle(_Model):
         return self
 
 
-class WorldModel(_Model):
+class WorldModel(Model):
     bounds: Extent
     obstacles: list[Obstacle] = Field(default_factory=list, max_length=100_000)
 
@@ -162,20 +87,21 @@ class WorldModel(_Model):
         return obstacles
 
 
-class StartPose(_Model):
+class StartPose(Located):
     """Where the vehicle stands before the mission, on the ground at altitude 0, and where its nose points."""
 
     north: Coordinate
     east: Coordinate
     heading_deg: Annotated[float, Field(ge=-360, le=360)] = 0.0
+    anywhere: bool = False  # with an origin: the flight begins where the vehicle is found, however far from here
 
 
-class VehicleModel(_Model):
+class VehicleModel(Model):
     start: StartPose
     radius: Annotated[float, Field(gt=0, le=100)] = 0.35  # [m] half the tip-to-tip diagonal of an X500
 
 
-class LimitsModel(_Model):
+class LimitsModel(Model):
     """What the trajectory may ask of the vehicle."""
 
     speed: Annotated[float, Field(ge=0.01, le=100)] = 3.0  # [m/s]
@@ -185,7 +111,7 @@ class LimitsModel(_Model):
     clearance: Annotated[float, Field(ge=0, le=100)] = 0.4  # [m] kept by plans between hull and obstacles
 
 
-class Sensing(_Model):
+class Sensing(Model):
     """Flying by what the vehicle sees on its way, beside what the world says."""
 
     use: bool = True
@@ -197,44 +123,7 @@ class Sensing(_Model):
     column: Literal["full"] | Annotated[float, Field(ge=0.1, le=100)] = "full"  # [m] above and below a hit; or all
 
 
-class Takeoff(_Model):
-    altitude: Size  # [m]
-
-
-class Hold(_Model):
-    seconds: Annotated[float, Field(ge=0, le=86_400)]
-
-
-class Land(_Model):
-    pass
-
-
-class Step(_Model):
-    """Exactly one of takeoff, goto, hold and land."""
-
-    takeoff: Takeoff | None = None
-    goto: Place | None = None
-    hold: Hold | None = None
-    land: Land | None = None
-
-    @model_validator(mode="before")
-    @classmethod
-    def _bare_land(cls, value: Any) -> Any:
-        return {"land": {}} if value == "land" or value == {"land": None} else value
-
-    @model_validator(mode="after")
-    def _exactly_one(self) -> "Step":
-        if sum(kind is not None for kind in (self.takeoff, self.goto, self.hold, self.land)) != 1:
-            raise ValueError("expected exactly one of takeoff, goto, hold, land")
-        return self
-
-    @property
-    def kind(self) -> str:
-        """Which of the four it is."""
-        return next(name for name in ("takeoff", "goto", "hold", "land") if getattr(self, name) is not None)
-
-
-class Wind(_Model):
+class Wind(Model):
     """Velocity of the air over ground [m/s]."""
 
     north: Annotated[float, Field(ge=-60, le=60)] = 0.0
@@ -242,7 +131,7 @@ class Wind(_Model):
     down: Annotated[float, Field(ge=-60, le=60)] = 0.0
 
 
-class Expect(_Model):
+class Expect(Model):
     """What must be true of the flight; names and units are those of the verdict. None: not asked."""
 
     tracking_error_p95_m: Positive | None = None  # against truth where the vehicle tells it, else the estimate
@@ -251,7 +140,7 @@ class Expect(_Model):
     setpoint_gap_p99_ms: Positive | None = None
 
 
-class Mission(_Model):
+class Mission(Model):
     """A flight: where, in what, how, and what counts as success."""
 
     name: Annotated[str, Field(min_length=1, max_length=100)]
@@ -259,6 +148,8 @@ class Mission(_Model):
     world: WorldModel
     limits: LimitsModel = LimitsModel()
     method: Literal["haoaroa", "astar", "jps", "bezier", "lbsgf", "aoa", "roa"] = "haoaroa"  # planner.METHODS
+    origin: Origin | None = None
+    fence: FenceModel | None = None
     steps: Annotated[list[Step], Field(min_length=2, max_length=10_000)]
     wind: Wind = Wind()
     sensing: Sensing | None = None
@@ -271,11 +162,16 @@ class Mission(_Model):
     @field_validator("steps")
     @classmethod
     def _flyable_order(cls, steps: list[Step]) -> list[Step]:
-        for i, step in enumerate(steps):
-            for kind, place, only in (("takeoff", "first", 0), ("land", "last", len(steps) - 1)):
-                if (step.kind == kind) != (i == only):
-                    raise ValueError(f"found {step.kind} as step {i}, expected {kind} as the {place} and only there")
+        flaw = flaw_in_order(steps)
+        if flaw:
+            raise ValueError(flaw)
         return steps
+
+    @model_validator(mode="after")
+    def _anywhere_has_an_origin(self) -> "Mission":
+        if self.vehicle.start.anywhere and self.origin is None:
+            raise ValueError("found vehicle.start.anywhere, expected the key origin with it")
+        return self
 
     def start_m(self) -> Vector:
         """Where the vehicle stands, in the mission frame."""
@@ -302,14 +198,27 @@ class Mission(_Model):
         return self.vehicle.radius + (self.limits.clearance if own is None else own)
 
     def planner_world(self) -> World:
-        """What the planner is told of the world, in the mission frame."""
+        """What the planner is told of the world, in the mission frame; the fence is solid to it."""
         if self._world is None:
-            self._world = self._built(lambda obstacle: not obstacle.hidden)
+            world, fence = self._built(lambda obstacle: not obstacle.hidden), self.geofence()
+            if fence is not None:
+                (n, e, top), high = world.bounds
+                low = (n, e, max(top, -fence.ceiling))
+                world = World(bounds=(low, high), obstacles=[*world.obstacles, *fence.solids((low, high))])
+            self._world = world
         return self._world
+
+    def geofence(self) -> Geofence | None:
+        """Where the mission may fly, if it says so."""
+        return None if self.fence is None else self.fence.geofence()
+
+    def geodetic_origin(self) -> Geodetic | None:
+        """Where on the earth the mission frame is, if it is known."""
+        return None if self.origin is None else self.origin.geodetic()
 
     def whole_world(self) -> World:
         """The same with what is hidden from the planner: the bundled vehicle sees it and a flight is judged by it."""
-        if not any(obstacle.hidden for obstacle in self.world.obstacles):
+        if self.fence is None and not any(obstacle.hidden for obstacle in self.world.obstacles):
             return self.planner_world()
         if self._whole is None:
             self._whole = self._built(lambda obstacle: True)
@@ -341,6 +250,24 @@ class Mission(_Model):
                 obstacles.append(self._maps[index])
         return World(bounds=corners(self.world.bounds), obstacles=obstacles)
 
+    def beyond_the_fence(self) -> list[tuple[list[Any], str]]:
+        """Places of the mission that its fence does not allow, as (keys, by how much)."""
+        fence = self.geofence()
+        if fence is None:
+            return []
+        places: list[tuple[list[Any], Vector]] = []
+        if not self.vehicle.start.anywhere:
+            places.append((["vehicle", "start"], self.start_m()))
+        for i, step in enumerate(self.steps):
+            if step.goto is not None:
+                places.append((["steps", i, "goto"], step.goto.ned()))
+            elif step.via is not None:
+                places.extend((["steps", i, "via", k], place.ned()) for k, place in enumerate(step.via))
+            elif step.takeoff is not None and fence.ceiling < step.takeoff.altitude + self.planner_radius():
+                places.append((["steps", i, "takeoff"], (*self.start_m()[:2], -step.takeoff.altitude)))
+        told = ((keys, fence.told(place, self.planner_radius())) for keys, place in places)
+        return [(keys, f"found a place {text}, expected one inside") for keys, text in told if text]
+
     def read_maps(self, folder: Path) -> list[tuple[list[Any], str]]:
         """Read the files that the world names, relative to a folder; problems as (keys, what is wrong).
 
@@ -364,4 +291,5 @@ class Mission(_Model):
                 self.planner_world()
             except ValueError as error:
                 problems.append((["world", "obstacles"], str(error)))
+        problems.extend(self.beyond_the_fence())
         return problems

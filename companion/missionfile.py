@@ -11,7 +11,9 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from companion.errors import MissionError
+from companion.geodesy import Geodetic
 from companion.mission import Mission
+from companion.shapes import ORIGIN, Origin
 
 MAX_FILE_BYTES = 1_000_000
 """A mission is written by people; beyond this it is something else."""
@@ -71,13 +73,21 @@ def parse_mission(data: bytes, file: str) -> Mission:
     if twice:
         raise MissionError(file, twice)
     try:
-        mission = Mission.model_validate(document)
+        mission = Mission.model_validate(document, context={ORIGIN: _origin(document)})
     except ValidationError as error:
         raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
     found = mission.read_maps(Path(file).parent)
     if found:
         raise MissionError(file, [f"line {_line(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
     return mission
+
+
+def _origin(document: dict[str, Any]) -> Geodetic | None:
+    """What geodetic places are relative to, if the document says so rightly; what is wrong with it is told later."""
+    try:
+        return Origin.model_validate(document.get("origin")).geodetic()
+    except ValidationError:
+        return None
 
 
 def _refuse_traps(text: str, file: str) -> None:
@@ -134,12 +144,16 @@ def all_keys(model: type[BaseModel]) -> set[str]:
     """Every key that the mission format knows, at any depth."""
     keys: set[str] = set()
     for name, entry in model.model_fields.items():
-        keys.add(name)
-        inner = [entry.annotation, *get_args(entry.annotation)]
-        for kind in inner:
+        keys.add(entry.alias or name)
+        for kind in _parts(entry.annotation):
             if isinstance(kind, type) and issubclass(kind, BaseModel):
                 keys |= all_keys(kind)
     return keys
+
+
+def _parts(annotation: Any) -> list[Any]:
+    """A type and everything it is made of: of `list[Area] | None` also Area."""
+    return [annotation, *(part for inner in get_args(annotation) for part in _parts(inner))]
 
 
 def _shown(value: Any) -> str:
