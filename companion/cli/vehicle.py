@@ -3,7 +3,7 @@
 import math
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -11,7 +11,10 @@ import numpy as np
 
 from companion.errors import CompanionError
 from companion.mission import Mission
-from fakevehicle.config import LinkConfig, VehicleConfig, zurich
+from companion.seam import Vector
+from fakevehicle.config import Autopilot, LinkConfig, VehicleConfig, zurich
+from fakevehicle.faults import parse_fault
+from fakevehicle.physics.wind import Gust
 from fakevehicle.scenario import world_text
 from fakevehicle.sensors.obstacles import World as Seen
 from fakevehicle.vehicle import Vehicle
@@ -56,17 +59,36 @@ def seen_world(mission: Mission) -> Seen | None:
     )
 
 
-def build_vehicle(mission: Mission, seed: int) -> Vehicle:
-    """The vehicle in memory, standing where the mission starts, in its wind."""
-    wind = mission.wind
+def build_vehicle(
+    mission: Mission,
+    seed: int,
+    autopilot: Autopilot = "px4",
+    *,
+    faults: Iterable[str] = (),
+    gusts: Sequence[Gust] = (),
+    wind: Vector | None = None,
+    parameters: Mapping[str, float] | None = None,
+) -> Vehicle:
+    """The vehicle in memory, standing where the mission starts, in its wind.
+
+    Parameters
+    ----------
+    faults : as `fakevehicle.faults.parse_fault` reads them.
+    wind : north, east, down [m/s]; None: the mission's.
+    parameters : of the vehicle, where they differ from its defaults.
+    """
+    blowing = (mission.wind.north, mission.wind.east, mission.wind.down) if wind is None else wind
     config = VehicleConfig(
         heading=mission.heading(),
-        wind_n=np.array([wind.north, wind.east, wind.down]),
+        wind_n=np.array(blowing),
         seed=seed,
         links=(LinkConfig(LINK, "onboard"),),
+        autopilot=autopilot,
+        faults=tuple(parse_fault(text) for text in faults),
+        gusts=tuple(gusts),
         world=seen_world(mission),
     )
-    return Vehicle(config)
+    return Vehicle(config, parameters)
 
 
 @contextmanager

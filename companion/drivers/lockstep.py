@@ -22,6 +22,18 @@ class VehicleCore(Protocol):
     def step(self, now_us: int, inputs: Sequence[Datagram]) -> list[Datagram]: ...
 
 
+class Wire(Protocol):
+    """What lies between the two; asked at every tick of the vehicle, with or without something to carry."""
+
+    def to_vehicle(self, now_us: int, sent: Sequence[Datagram]) -> list[Datagram]:
+        """What arrives at the vehicle now, when the companion has just sent this."""
+        ...
+
+    def to_companion(self, now_us: int, sent: Sequence[Datagram]) -> list[Datagram]:
+        """What arrives at the companion now, when the vehicle has just sent this."""
+        ...
+
+
 def fly_lockstep(
     companion: Companion,
     vehicle: VehicleCore,
@@ -32,16 +44,18 @@ def fly_lockstep(
     limit_s: float,
     operator: Callable[[int], Order | None] = lambda now_us: None,
     stop: Callable[[], bool] = lambda: False,
+    wire: Wire | None = None,
 ) -> int:
     """Fly until the companion is done, `limit_s` of simulated time have passed, or `stop` says so.
 
-    Datagrams take one tick of the receiver to arrive, in both directions; nothing is lost.
+    Datagrams take one tick of the receiver to arrive, in both directions; nothing is lost unless `wire` loses it.
 
     Parameters
     ----------
     vehicle_link : the vehicle's name for its link to the companion.
     operator : asked once a tick for what the person at the keyboard wants.
     stop : asked once a tick; True ends the flight as it is.
+    wire : what may go wrong on the way; None: nothing.
 
     Returns
     -------
@@ -55,7 +69,11 @@ def fly_lockstep(
         inputs: list[tuple[int, Input]] = []
         for _ in range(companion.TICK_US // vehicle.TICK_US):
             now_us += vehicle.TICK_US
+            if wire is not None:
+                to_vehicle = wire.to_vehicle(now_us, to_vehicle)
             sent, to_vehicle = vehicle.step(now_us, to_vehicle), []
+            if wire is not None:
+                sent = wire.to_companion(now_us, sent)
             inputs.extend((now_us, Datagram(VEHICLE_LINK, d.data, VEHICLE_ADDRESS)) for d in sent)
         inputs.extend((now_us, ready) for ready in planning.ready())
         asked = operator(now_us)
