@@ -7,6 +7,7 @@ Frame: body FRD, origin at the centre of mass, SI units. Every number of a shipp
 """
 
 from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -15,15 +16,11 @@ import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from fakevehicle.airframe_check import AIR_DENSITY, GRAVITY, Flaw, check
 from fakevehicle.battery import Pack
 from fakevehicle.errors import AirframeError
 from fakevehicle.params import Parameter
 from fakevehicle.vocabulary import FloatArray
-
-GRAVITY = 9.80665
-"""Standard gravity [m/s^2]."""
-AIR_DENSITY = 1.225
-"""International standard atmosphere at sea level [kg/m^3]."""
 
 BODY = np.dtype(
     [
@@ -59,6 +56,8 @@ BODY = np.dtype(
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Real = Annotated[float, Field(allow_inf_nan=False)]
+Lag = Annotated[float, Field(ge=0.001, le=1)]
+"""A time constant [s]; a step of the integrator is 1 ms."""
 Vector = tuple[Real, Real, Real]
 
 
@@ -82,37 +81,33 @@ class Airframe(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str
-    mass: Positive  # [kg]
+    mass: Annotated[float, Field(ge=0.005, le=200)]  # [kg]
     inertia: tuple[Positive, Positive, Positive]  # principal, about the body axes [kg m^2]
     rotors: tuple[Rotor, Rotor, Rotor, Rotor]  # PX4 order
     thrust_coefficient: Positive
-    moment_ratio: Positive
+    moment_ratio: Annotated[float, Field(ge=1e-4, le=1)]
     max_rotor_speed: Positive
     idle_rotor_speed: NotNegative
-    time_constant_up: Positive
-    time_constant_down: Positive
+    time_constant_up: Lag
+    time_constant_down: Lag
     rotor_drag: NotNegative
     rotor_inertia: NotNegative
-    propeller_radius: Positive
+    propeller_radius: Annotated[float, Field(ge=0.005, le=2)]
     drag_area: tuple[NotNegative, NotNegative, NotNegative]
     contact_points_b: tuple[Vector, Vector, Vector, Vector]
     contact_stiffness: Positive
     contact_damping: NotNegative
-    contact_friction: NotNegative
+    contact_friction: Annotated[float, Field(ge=0, le=10)]
     battery: Pack
     parameters: Mapping[str, Real] = {}  # that it flies well with, by name, where they differ from the defaults
     source: dict[str, str]
 
     @model_validator(mode="after")
     def _can_fly(self) -> "Airframe":
-        thrust = 4 * self.thrust_coefficient * self.max_rotor_speed**2
-        if thrust <= 1.05 * self.mass * GRAVITY:
-            raise ValueError(f"full thrust {thrust:.3g} N cannot lift {self.mass:.3g} kg")
-        if np.linalg.matrix_rank(self.allocation()) < 4:
-            raise ValueError("the rotors cannot produce three torques and a thrust independently")
+        check(self)
         unnamed = set(type(self).model_fields) - {"name", "parameters", "source"} - set(self.source)
         if unnamed:
-            raise ValueError(f"no source given for {', '.join(sorted(unnamed))}")
+            raise Flaw("source", f"none for {', '.join(sorted(unnamed))}", "a line for every field")
         return self
 
     def allocation(self) -> FloatArray:
@@ -199,7 +194,19 @@ def load_airframe(name: str) -> Airframe:
     try:
         return Airframe.model_validate(content)
     except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(str(part) for part in first["loc"])
-        found = "nothing" if first["type"] == "missing" else repr(first["input"]) if field else "these numbers"
-        raise AirframeError(name, field, found, first["msg"].removeprefix("Value error, ")) from error
+        raise _told(name, error) from error
+
+
+def _told(name: str, error: ValidationError) -> AirframeError:
+    """The first of pydantic's errors in the form of ours; unknown names come before missing ones."""
+    first = min(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+    flaw = first.get("ctx", {}).get("error")
+    if isinstance(flaw, Flaw):
+        return AirframeError(name, flaw.field, flaw.found, flaw.expected)
+    field = ".".join(str(part) for part in first["loc"])
+    if first["type"] == "missing":
+        return AirframeError(name, field, "nothing", "a value")
+    if first["type"] == "extra_forbidden":
+        near = get_close_matches(str(first["loc"][-1]), Airframe.model_fields, 1)
+        return AirframeError(name, field, repr(first["input"]), f"no such field{f'; {near[0]}?' if near else ''}")
+    return AirframeError(name, field, repr(first["input"]), first["msg"].removeprefix("Input should be "))
