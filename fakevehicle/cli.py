@@ -205,13 +205,13 @@ def _seat(one: _Plan, links: dict[str, UdpLink], started_s: float, name: str) ->
         files = Folder(one.folder)
         log = FlightLog(one.folder, one.config, one.parameters, started_unix_s=started_s)
     vehicle = Vehicle(one.config, one.parameters, files)
-    flying = vehicle.flying
-    shown = (flying.mode, flying.armed)
+    shown = (vehicle.flying.mode, vehicle.flying.armed)
 
     def watch(now_us: int) -> None:
         nonlocal shown
         for text in vehicle.take_texts():
             _say(f"[{now_us * 1e-6:9.3f}] {name}{text}")
+        flying = vehicle.flying  # another one after a reboot
         if (flying.mode, flying.armed) != shown:
             shown = (flying.mode, flying.armed)
             _say(f"[{now_us * 1e-6:9.3f}] {name}{flying.mode.title}, {'armed' if flying.armed else 'disarmed'}")

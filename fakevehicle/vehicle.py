@@ -9,12 +9,15 @@ The order of work in a tick
 3. Every fifth tick the supervisor looks at the new estimate and notices what happened (takeoff, landing, stream lost).
 4. A change of mode, arming or landed state is told at once; then come the streams that are due.
 
+A reboot that is asked for (disarmed only) happens before the next tick: everything but the links, the parameters, the
+plans and the recordings is made anew, back where it stood at the start, and time begins at 0.
+
 `step` never raises for what a peer sent. The vehicle obeys every peer on its own links that addresses system
 `system_id` or 0 (all) and component 1 or 0, and ignores the rest; MAVLink 1 is read, MAVLink 2 is answered.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fakevehicle import flight, supervisor
 from fakevehicle.airframe import load_airframe
@@ -118,12 +121,26 @@ class Vehicle:
         self, config: VehicleConfig, parameters: Mapping[str, float] | None = None, files: Files | None = None
     ) -> None:
         self.config = config
+        self._files = MemoryFiles() if files is None else files
+        self._airframe = load_airframe(config.airframe)
+        self._store = PlanStore()
+        self._outbox = Outbox(config.system_id, [link.name for link in config.links])
+        self._framers = {link.name: Framer() for link in config.links}
+        self._foreign = self._ignored = self._flooded = 0
+        self._rejected = (0, 0)  # commands and setpoints, before the newest boot
+        self._reboot_asked = False
+        self._boot_us = 0  # the driver's time of the newest boot
+        self._boot(parameters or {})
+
+    def _boot(self, parameters: Mapping[str, float]) -> None:
+        """Make everything that begins anew with a boot: all but the links, the plans and the recordings."""
+        config = self.config
         flavour = self._flavour = flavour_of(config.autopilot)
         preset = PRESETS[config.gains]
-        airframe = load_airframe(config.airframe)
+        airframe = self._airframe
         known = _distinct((*PARAMETERS, *flavour.parameters))
         own = airframe.values(config.airframe, known)
-        overrides = {"MAV_SYS_ID": config.system_id, **own, **flavour.defaults, **preset, **(parameters or {})}
+        overrides = {"MAV_SYS_ID": config.system_id, **own, **flavour.defaults, **preset, **parameters}
         self.parameters = ParameterSet(known, overrides)
         self._stack = FlightStack(
             airframe=airframe,
@@ -137,18 +154,20 @@ class Vehicle:
             world=config.world,
         )
         self._places = Places(self._origin, config.home)
-        store = PlanStore()
+        store = self._store
         hover = (airframe.hover_speed / airframe.max_rotor_speed) ** 2
         self._supervisor = Supervisor(self.parameters, store, self._places, hover)
-        self._outbox = Outbox(config.system_id, [link.name for link in config.links])
-        self._telemetry = Telemetry(config, self._stack, self._supervisor, self._stack.battery, self._places)
+        since = replace(config, start_unix_us=config.start_unix_us and config.start_unix_us + self._boot_us)
+        self._telemetry = Telemetry(
+            since, flavour.software, self._stack, self._supervisor, self._stack.battery, self._places
+        )
         movers = None if config.world is None else config.world.movers
         self._streams = Streams(
             self._outbox, config.links, lambda profile: with_traffic(flavour.rates(profile), movers)
         )
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places, flavour)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
-        recordings = MemoryFiles() if files is None else files
+        recordings = self._files
         named = flavour.named(self.parameters)
         metadata = Metadata(named, READ_ONLY, self._now)
         tree = Tree({PARAM_FILE: lambda query: pack(named, query), **metadata.files}, {"log": recordings})
@@ -172,6 +191,7 @@ class Vehicle:
                 self._stack.mend,
                 self._telemetry.home_position,
                 self._telemetry.gps_global_origin,
+                self._ask_reboot,
             ),
             Circling(self._supervisor, self._places),
             NoShell(self._outbox, refuse),
@@ -203,8 +223,6 @@ class Vehicle:
         self._commands.table = {**merged("command", (s.commands() for s in services)), **flavour.commands()}
         self._streams.table = {**merged("stream", (s.builders() for s in services)), **flavour.builders()}
         self._steps = [s.step for s in (*services, flavour) if type(s).step is not Service.step]
-        self._framers = {link.name: Framer() for link in config.links}
-        self._foreign = self._ignored = self._flooded = 0
         self._entered = 0
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
@@ -235,8 +253,8 @@ class Vehicle:
             foreign=self._foreign,
             ignored=self._ignored,
             flooded=self._flooded,
-            rejected_commands=self._commands.rejected,
-            rejected_setpoints=self._setpoints.rejected,
+            rejected_commands=self._rejected[0] + self._commands.rejected,
+            rejected_setpoints=self._rejected[1] + self._setpoints.rejected,
             sent=self._outbox.sent,
             dropped=self._outbox.dropped,
         )
@@ -246,7 +264,7 @@ class Vehicle:
 
         Parameters
         ----------
-        now_us : time since boot [us]; each call is one TICK_US later than the one before.
+        now_us : time since the first boot [us]; each call is one TICK_US later than the one before.
         inputs : what has arrived since, in order. Datagrams of links we do not have are ignored.
 
         Returns
@@ -258,8 +276,12 @@ class Vehicle:
         ValueError : `now_us` is not one tick later.
         DivergedError : the simulation left the range where its numbers mean anything.
         """
-        if self._now_us is not None and now_us != self._now_us + TICK_US:
-            raise ValueError(f"now_us {now_us}: expected {self._now_us + TICK_US}, one tick after the last")
+        if self._reboot_asked:
+            self._reboot()
+        if self._now_us is not None and now_us - self._boot_us != self._now_us + TICK_US:
+            expected = self._boot_us + self._now_us + TICK_US
+            raise ValueError(f"now_us {now_us}: expected {expected}, one tick after the last")
+        now_us -= self._boot_us
         self._now_us = now_us
         self._telemetry.now_us = now_us
         stack, supervisor = self._stack, self._supervisor
@@ -280,6 +302,19 @@ class Vehicle:
         for step in self._steps:
             step(now_us)
         return self._outbox.take()
+
+    def _ask_reboot(self) -> None:
+        """Before the next tick, so that this one's answers still go out."""
+        self._reboot_asked = True
+
+    def _reboot(self) -> None:
+        """Stand as at the start, at a time of 0, with the parameters and plans there are."""
+        counters = self.counters
+        self._rejected = (counters.rejected_commands, counters.rejected_setpoints)
+        self._boot_us += self._now() + TICK_US
+        self._reboot_asked = False
+        self._boot({name: self.parameters[name] for name in self.parameters})
+        self._now_us = -TICK_US
 
     def _take(self, inputs: Sequence[Datagram], now_us: int) -> None:
         """Frame, decode and hand out what came in."""

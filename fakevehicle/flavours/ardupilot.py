@@ -79,6 +79,7 @@ class ArduPilot(Flavour):
     bytewise = False
     habits = MissionHabits(ask_int=False, retry_us=1_000_000, give_up_us=8_000_000, home_first=True, plain_frames=True)
     texts_first = False
+    software = 4 << 24 | 7 << 16 | 0 << 8 | _m.FIRMWARE_VERSION_TYPE_DEV
 
     def __init__(self) -> None:
         self.number = STABILIZE

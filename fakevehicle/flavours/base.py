@@ -64,6 +64,7 @@ class Flavour(Service):
     bytewise : whether integers travel as their bytes inside a parameter's float, or as the float nearest to them.
     habits : how it speaks the mission protocol.
     texts_first : whether notes are told before the HEARTBEAT of a new mode.
+    software : AUTOPILOT_VERSION.flight_sw_version of the autopilot that is imitated, for clients that go by it.
     parts : the vehicle's rooms, from `attach` on.
     """
 
@@ -71,6 +72,7 @@ class Flavour(Service):
     defaults: Mapping[str, float] = {}
     bytewise = True
     texts_first = True
+    software: int = 0
     habits = MissionHabits()
     parts: Parts
 

@@ -83,6 +83,8 @@ _STANDARD_MODE = {
 class Px4(Flavour):
     """As PX4 v1.16 behaves, and kinder where modes.py says so."""
 
+    software = 1 << 24 | 16 << 16 | 0 << 8 | mavlink.FIRMWARE_VERSION_TYPE_OFFICIAL
+
     def rates(self, profile: Profile) -> Mapping[int, float]:
         """PX4's own for its two kinds of links."""
         return RATES_HZ[profile]

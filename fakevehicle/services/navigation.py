@@ -40,6 +40,7 @@ class Navigation(Service):
     outbox, places : as everywhere.
     inject, mend : give a fault to the flight stack, and end those of a sensor, or of one of several alike.
     announce_home, announce_origin : build HOME_POSITION and GPS_GLOBAL_ORIGIN.
+    restart : begins the vehicle anew after this tick.
     """
 
     def __init__(
@@ -52,6 +53,7 @@ class Navigation(Service):
         mend: Callable[[Sensor, int, int | None], None],
         announce_home: Builder,
         announce_origin: Builder,
+        restart: Callable[[], None],
     ) -> None:
         self._supervisor = supervisor
         self._missions = missions
@@ -61,6 +63,7 @@ class Navigation(Service):
         self._mend = mend
         self._announce_home = announce_home
         self._announce_origin = announce_origin
+        self._restart = restart
         self._breached = False
 
     def routes(self) -> Mapping[int, Handler]:
@@ -221,10 +224,20 @@ class Navigation(Service):
         return ACCEPTED
 
     def _reboot(self, _sender: Sender, command: Command, _now_us: int) -> Verdict:
-        """A simulated vehicle is begun anew by beginning a new one; only the request to do nothing is accepted."""
-        if all(not p or math.isnan(p) for p in command.params):
-            return ACCEPTED
-        return Verdict(_m.MAV_RESULT_UNSUPPORTED, "start the simulator anew instead")
+        """Parameter 1: 1 begins the vehicle anew, 0 leaves it; what the others are about is not here.
+
+        Clients that mean everything set 1 to 4 alike.
+        """
+        wanted = command.params[0]
+        if wanted != 1.0:
+            if all(not p or math.isnan(p) for p in command.params):
+                return ACCEPTED
+            return Verdict(_m.MAV_RESULT_UNSUPPORTED, _NO_REBOOT.get(wanted, "only the autopilot can be rebooted"))
+        if self._supervisor.armed:
+            return Verdict(_m.MAV_RESULT_TEMPORARILY_REJECTED, "it is armed")
+        self._restart()
+        self._outbox.text(_m.MAV_SEVERITY_INFO, "Rebooting by external command")
+        return ACCEPTED
 
     def _inject_failure(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
         """FAILURE_UNIT, FAILURE_TYPE and instance (0: all of them): failing or, with OK, well again from now on."""
@@ -250,6 +263,7 @@ class Navigation(Service):
         return ACCEPTED
 
 
+_NO_REBOOT = {2.0: "it is switched off by ending the simulator", 3.0: "it has no bootloader to stay in"}
 _UNITS = {
     _m.FAILURE_UNIT_SENSOR_GYRO: Sensor.GYRO,
     _m.FAILURE_UNIT_SENSOR_ACCEL: Sensor.ACCEL,

@@ -26,6 +26,8 @@ G = 9.80665
 NAN = math.nan
 _UNKNOWN16 = 0xFFFF
 VERSION = 0 << 24 | 1 << 16 | 0 << 8 | mavlink.FIRMWARE_VERSION_TYPE_DEV
+OWN_VERSION = list(b"sim0.1.0")
+"""flight_custom_version: eight bytes, text as ArduPilot has there."""
 CAPABILITIES = (
     mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT
     | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT
@@ -66,13 +68,20 @@ _WIND_COV = Layout(mavlink.MAVLink_wind_cov_message)
 class Telemetry(Service):
     """Builds messages from the vehicle's parts.
 
-    `now_us` is set by the vehicle at each tick.
+    `now_us` is set by the vehicle at each tick; `software` is flight_sw_version.
     """
 
     def __init__(
-        self, config: VehicleConfig, stack: FlightStack, supervisor: Supervisor, battery: Gauge, places: Places
+        self,
+        config: VehicleConfig,
+        software: int,
+        stack: FlightStack,
+        supervisor: Supervisor,
+        battery: Gauge,
+        places: Places,
     ) -> None:
         self._config = config
+        self._software = software
         self._stack = stack
         self._supervisor = supervisor
         self._battery = battery
@@ -165,11 +174,22 @@ class Telemetry(Service):
         return mavlink.MAVLink_system_time_message(start + self.now_us if start else 0, self._boot_ms)
 
     def autopilot_version(self) -> Message:
-        """Our own version, and only capabilities this vehicle has."""
+        """The version of what is imitated, our own beside it (the middleware's, and in text), capabilities it has."""
         none = [0] * 8
         uid = self._config.system_id
         return mavlink.MAVLink_autopilot_version_message(
-            CAPABILITIES, VERSION, VERSION, 0, 0, none, none, none, 0, 0, uid, [*uid.to_bytes(2, "little"), *[0] * 16]
+            CAPABILITIES,
+            self._software,
+            VERSION,
+            0,
+            0,
+            OWN_VERSION,
+            none,
+            none,
+            0,
+            0,
+            uid,
+            [*uid.to_bytes(2, "little"), *[0] * 16],
         )
 
     # Where it is

@@ -35,7 +35,7 @@ pytestmark = pytest.mark.udp
 def test_version_and_identity() -> None:
     async def story(system: Any, _vehicle: VehicleProcess) -> None:
         version = await system.info.get_version()
-        assert (version.flight_sw_major, version.flight_sw_minor) == (0, 1)
+        assert (version.flight_sw_major, version.flight_sw_minor) == (1, 16)
         identity = await system.info.get_identification()
         assert identity.legacy_uid or identity.hardware_uid
 

@@ -42,7 +42,7 @@ COMMANDS: list[tuple[int, tuple[float, ...]]] = [
     *((number, (1, 0, 0, 0, 0, 0, 5)) for number in (400, 22, 21, 20, 300, 178, 179, 192, 420, 410, 511, 512, 510)),
     (176, (1, 6, 0, 0, 0, 0, 0)),
     (176, (1, 4, 3, 0, 0, 0, 0)),
-    (246, (1, 0, 0, 0, 0, 0, 0)),
+    (246, (2, 0, 0, 0, 0, 0, 0)),  # not 1, by which all that is counted here begins anew
 ]
 WORD = struct.Struct("<HBBBBBBI")
 
