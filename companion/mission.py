@@ -25,10 +25,11 @@ from companion.shapes import (
     Origin,
     Positive,
     PrismShape,
+    Size,
     SphereShape,
 )
 from companion.steps import Step, flaw_in_order
-from planner import Box, Cylinder, Limits, PointCloud, Sphere, VoxelGrid, World
+from planner import Box, Cylinder, Limits, PointCloud, Prism, Sphere, VoxelGrid, World
 from planner.errors import WorldFileError
 from planner.worlds import Obstacle as PlannerObstacle
 
@@ -74,9 +75,41 @@ class Obstacle(Model):
         return self
 
 
+class PopUp(Obstacle):
+    """A shape that is not there at first: from a time on, or once the vehicle is so near to it. Nobody is told."""
+
+    at: Annotated[float, Field(ge=0, le=86_400)] | None = None  # [s] since the vehicle's start
+    within: Size | None = None  # [m] from its centre
+
+    @model_validator(mode="after")
+    def _appears_somehow(self) -> "PopUp":
+        if (self.at is None) == (self.within is None):
+            raise ValueError("expected exactly one of at, within")
+        if self.voxels is not None or self.cloud is not None:
+            raise ValueError("expected a box, cylinder, sphere or prism")
+        return self
+
+
+class Velocity(Model):
+    """[m/s] over ground."""
+
+    north: Annotated[float, Field(ge=-60, le=60)] = 0.0
+    east: Annotated[float, Field(ge=-60, le=60)] = 0.0
+    up: Annotated[float, Field(ge=-60, le=60)] = 0.0
+
+
+class Mover(Model):
+    """A ball that flies about, reflected by the bounds; where it is at the vehicle's start, and its course."""
+
+    sphere: SphereShape
+    velocity: Velocity
+
+
 class WorldModel(Model):
     bounds: Extent
     obstacles: list[Obstacle] = Field(default_factory=list, max_length=100_000)
+    popups: list[PopUp] = Field(default_factory=list, max_length=1000)
+    movers: list[Mover] = Field(default_factory=list, max_length=1000)
 
     @field_validator("obstacles")
     @classmethod
@@ -85,6 +118,16 @@ class WorldModel(Model):
         if files > MAX_MAP_FILES:
             raise ValueError(f"found {files} voxel and cloud files, expected at most {MAX_MAP_FILES}")
         return obstacles
+
+    @model_validator(mode="after")
+    def _movers_are_inside(self) -> "WorldModel":
+        for i, mover in enumerate(self.movers):
+            ball = mover.sphere
+            for key in ("north", "east", "altitude"):
+                found, within = getattr(ball, key), getattr(self.bounds, key)
+                if not within.low + ball.radius <= found <= within.high - ball.radius:
+                    raise ValueError(f"mover {i}: found {key} {found:g}, expected it inside the bounds by its radius")
+        return self
 
 
 class StartPose(Located):
@@ -225,30 +268,13 @@ class Mission(Model):
         return self._whole
 
     def _built(self, told: Callable[[Obstacle], bool]) -> World:
-        """The world in the mission frame: altitude intervals turned upside down into z."""
-
-        def corners(e: Extent) -> tuple[Vector, Vector]:
-            low = (e.north.low, e.east.low, -e.altitude.high)
-            return low, (e.north.high, e.east.high, -e.altitude.low)
-
+        """The world in the mission frame."""
         obstacles: list[PlannerObstacle] = []
         for index, obstacle in enumerate(self.world.obstacles):
-            if not told(obstacle):
-                continue
-            if obstacle.box is not None:
-                obstacles.append(Box(*corners(obstacle.box)))
-            elif obstacle.cylinder is not None:
-                c = obstacle.cylinder
-                z = (-c.altitude.high, -c.altitude.low)
-                obstacles.append(Cylinder(centre=(c.north, c.east), radius=c.radius, z=z))
-            elif obstacle.sphere is not None:
-                s = obstacle.sphere
-                obstacles.append(Sphere(centre=(s.north, s.east, -s.altitude), radius=s.radius))
-            elif obstacle.prism is not None:
-                obstacles.append(obstacle.prism.in_ned())
-            else:
-                obstacles.append(self._maps[index])
-        return World(bounds=corners(self.world.bounds), obstacles=obstacles)
+            if told(obstacle):
+                solid = solid_of(obstacle)
+                obstacles.append(self._maps[index] if solid is None else solid)
+        return World(bounds=_corners(self.world.bounds), obstacles=obstacles)
 
     def beyond_the_fence(self) -> list[tuple[list[Any], str]]:
         """Places of the mission that its fence does not allow, as (keys, by how much)."""
@@ -293,3 +319,22 @@ class Mission(Model):
                 problems.append((["world", "obstacles"], str(error)))
         problems.extend(self.beyond_the_fence())
         return problems
+
+
+def _corners(e: Extent) -> tuple[Vector, Vector]:
+    """In the mission frame: altitude intervals are turned upside down into z."""
+    low = (e.north.low, e.east.low, -e.altitude.high)
+    return low, (e.north.high, e.east.high, -e.altitude.low)
+
+
+def solid_of(obstacle: Obstacle) -> Box | Cylinder | Sphere | Prism | None:
+    """The planner's solid of one obstacle, in the mission frame; None for a file of voxels or points."""
+    if obstacle.box is not None:
+        return Box(*_corners(obstacle.box))
+    if obstacle.cylinder is not None:
+        c = obstacle.cylinder
+        return Cylinder(centre=(c.north, c.east), radius=c.radius, z=(-c.altitude.high, -c.altitude.low))
+    if obstacle.sphere is not None:
+        s = obstacle.sphere
+        return Sphere(centre=(s.north, s.east, -s.altitude), radius=s.radius)
+    return None if obstacle.prism is None else obstacle.prism.in_ned()
