@@ -5,6 +5,7 @@ import math
 import signal
 import sys
 import time
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, NoReturn, cast, get_args
@@ -17,14 +18,15 @@ from rich.table import Table
 from fakevehicle.airframe import load_airframe
 from fakevehicle.config import MAX_LINKS, Autopilot, Gains, LinkConfig, VehicleConfig
 from fakevehicle.driver import DriverCounters, LinkPlan, Seat, open_links, px4_links, run
-from fakevehicle.errors import AirframeError, ScenarioError, VehicleError
+from fakevehicle.errors import AirframeError, ParameterFileError, ScenarioError, VehicleError
 from fakevehicle.faults import parse_fault
 from fakevehicle.flavours import flavour_of
 from fakevehicle.geodesy import to_geodetic
-from fakevehicle.params import ParameterSet
+from fakevehicle.param_file import ParameterFile, load_parameter_file
+from fakevehicle.params import Parameter, ParameterSet
 from fakevehicle.recordings import FlightLog, Folder
 from fakevehicle.scenario import Scenario, load_scenario
-from fakevehicle.vehicle import PARAMETERS, TICK_US, Vehicle
+from fakevehicle.vehicle import PARAMETERS, READ_ONLY, TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
 from logs.errors import RecordingError
 from wire.endpoint import Endpoint
@@ -70,6 +72,10 @@ def fly(
     ] = "0,0,0",
     seed: Annotated[int, typer.Option(help="Of every random number.")] = 1,
     param: Annotated[list[str] | None, typer.Option("--param", metavar="NAME=VALUE", help="Set a parameter.")] = None,
+    params: Annotated[
+        list[Path] | None,
+        typer.Option("--params", metavar="FILE", help="Parameters from a .params or .parm file; --param goes over it."),
+    ] = None,
     fault: Annotated[
         list[str] | None,
         typer.Option(metavar="SENSOR:KIND[=NUMBERS][@START[-END]]", help="Something fails, as in gps:off@20-40 (s)."),
@@ -111,7 +117,7 @@ def fly(
             raise ValueError(f"--speed {speed:g}: expected {SLOWEST:g} to {FASTEST:g}")
         place, heading = _home(home)
         kind = _autopilot(autopilot)
-        parameters = _parameters(param or [], kind)
+        parameters, loaded = _parameters(params or [], param or [], kind)
         load_airframe(airframe)
         events = Scenario() if scenario is None else load_scenario(scenario)
         faults = (*events.faults, *(parse_fault(text) for text in fault or []))
@@ -138,8 +144,10 @@ def fly(
             crew.append(_Plan(config, parameters, plans, folder))
     except AirframeError as error:
         _fail(f"--airframe {airframe}: {error}", 2)
-    except (ValueError, EndpointError, ScenarioError) as error:
+    except (ValueError, EndpointError, ScenarioError, ParameterFileError) as error:
         _fail(str(error), 2)
+    for file in loaded:
+        _say(file.summary())
     links: list[dict[str, UdpLink]] = []
     try:
         for one in crew:
@@ -280,20 +288,36 @@ def _gains(text: str) -> Gains:
     return cast(Gains, known[text])
 
 
-def _known(autopilot: Autopilot) -> tuple[ParameterSet, ParameterSet]:
+class _Noted(ParameterSet):
+    """Parameters that remember which were set: also to the default, which a preset may have changed."""
+
+    def __init__(self, parameters: Iterable[Parameter], overrides: Mapping[str, float]) -> None:
+        self.touched: set[str] = set()
+        super().__init__(parameters, overrides)
+
+    def set(self, name: str, value: float) -> None:
+        super().set(name, value)
+        self.touched.add(name)
+
+
+def _known(autopilot: Autopilot) -> tuple[_Noted, ParameterSet]:
     """The parameters of a flavour under our names, and the same under its names."""
     flavour = flavour_of(autopilot)
-    whole = ParameterSet((*PARAMETERS, *flavour.parameters), flavour.defaults)
+    whole = _Noted((*PARAMETERS, *flavour.parameters), flavour.defaults)
     return whole, flavour.named(whole)
 
 
-def _parameters(texts: list[str], autopilot: Autopilot) -> dict[str, float]:
-    """What differs from the flavour's defaults, under our names."""
+def _parameters(
+    paths: list[Path], texts: list[str], autopilot: Autopilot
+) -> tuple[dict[str, float], list[ParameterFile]]:
+    """What files, in their order, and then options set, under our names; and the files."""
     whole, named = _known(autopilot)
-    usual = {name: whole[name] for name in whole}
-    for text in texts:
-        named.set(*_parameter(text, named))
-    return {name: whole[name] for name in whole if whole[name] != usual[name]}
+    whole.touched.clear()
+    files = [load_parameter_file(path, named, READ_ONLY) for path in paths]
+    asked = [item for file in files for item in file.values.items()] + [_parameter(text, named) for text in texts]
+    for name, value in asked:
+        named.set(name, value)
+    return {name: whole[name] for name in sorted(whole.touched)}, files
 
 
 def _parameter(text: str, known: ParameterSet) -> tuple[str, float]:
@@ -304,6 +328,8 @@ def _parameter(text: str, known: ParameterSet) -> tuple[str, float]:
     if name not in known:
         near = difflib.get_close_matches(name, known, n=1)
         raise ValueError(f"--param {text}: no parameter {name}" + (f", did you mean {near[0]}?" if near else ""))
+    if name in READ_ONLY:
+        raise ValueError(f"--param {text}: fixed at the start, by --instance")
     try:
         return name, float(known.describe(name).coerced(float(value)))
     except ValueError as error:

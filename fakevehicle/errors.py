@@ -3,6 +3,7 @@
 VehicleError
 ├── AirframeError      an airframe file that cannot be used: file, field, found, expected
 ├── ScenarioError      a scenario file that cannot be used: file, place
+├── ParameterFileError a file of parameters that cannot be used: file, line
 └── DivergedError      the simulation left the range where its numbers mean anything
 """
 
@@ -39,6 +40,20 @@ class ScenarioError(VehicleError):
     def __init__(self, file: str, place: str, why: str) -> None:
         super().__init__(f"{file}: {place}: {why}" if place else f"{file}: {why}")
         self.file, self.place = file, place
+
+
+class ParameterFileError(VehicleError):
+    """A file of parameters cannot be used.
+
+    Attributes
+    ----------
+    file : the file as it was named.
+    line : from 1; 0 when the file as a whole is meant.
+    """
+
+    def __init__(self, file: str, line: int, why: str) -> None:
+        super().__init__(f"{file}, line {line}: {why}" if line else f"{file}: {why}")
+        self.file, self.line = file, line
 
 
 class DivergedError(VehicleError):
