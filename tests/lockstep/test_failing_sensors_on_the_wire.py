@@ -79,7 +79,7 @@ def test_every_unit_can_be_made_to_fail_in_every_way_it_has_and_other_ways_are_r
     pilot.run(3.0)
     for unit in units:
         for kind in kinds:
-            possible = unit != 101 or kind in (1, 2, 4)
+            possible = unit != 101 or kind in (1, 4)
             assert pilot.command(420, unit, kind, 0) == (ACCEPTED if possible else UNSUPPORTED)
             pilot.run(0.02)
             assert pilot.command(420, unit, 0, 0) == ACCEPTED
