@@ -88,7 +88,7 @@ class Tree:
     Parameters
     ----------
     made : by path: from the query (the text behind a ``?``) to the whole content. Called at each opening.
-    mounts : by folder name at the root.
+    mounts : by folder; the same files may be under several.
 
     Raises
     ------
@@ -100,20 +100,19 @@ class Tree:
     ) -> None:
         self._made = dict(made or {})
         self._mounts = dict(mounts or {})
-        roots = {path.split("/")[0] for path in self._made}
-        if roots & self._mounts.keys():
-            raise ValueError(f"claimed twice: {', '.join(sorted(roots & self._mounts.keys()))}")
+        claimed = {path for path in self._made for mount in self._mounts if f"{path}/".startswith(f"{mount}/")}
+        if claimed:
+            raise ValueError(f"claimed twice: {', '.join(sorted(claimed))}")
 
     def listing(self, path: str) -> list[Entry] | None:
         """Everything in a folder, by name; None: there is no such folder."""
         split = parts(path)
-        if split and split[0] in self._mounts:
-            return self._mounts[split[0]].listing("/".join(split[1:]))
-        found = _listing(split, {name: None for name in self._made}, self._size_of_made)
-        if found is not None and not split:
-            found += [Entry(name, is_dir=True) for name in self._mounts]
-            found.sort(key=lambda entry: entry.name)
-        return found
+        mounted = None if split is None else self._mounted(split)
+        if mounted is not None:
+            files, inner = mounted
+            return files.listing(inner)
+        folders = {f"{mount}/": 0 for mount in self._mounts}  # a nameless file in each makes it a folder
+        return _listing(split, {**dict.fromkeys(self._made), **folders}, self._size_of_made)
 
     def open(self, path: str) -> OpenFile | None:
         """Open for reading; None: there is no such file."""
@@ -125,12 +124,20 @@ class Tree:
         if make is not None:
             data = make(query)
             return OpenFile(len(data), lambda offset, size: data[offset : offset + size])
-        files = self._mounts.get(split[0])
-        inner = "/".join(split[1:])
-        size = None if files is None else files.size(inner)
-        if files is None or size is None:
+        mounted = self._mounted(split)
+        if mounted is None:
             return None
-        return OpenFile(size, lambda offset, count: files.read(inner, offset, count))
+        files, inner = mounted
+        size = files.size(inner)
+        return None if size is None else OpenFile(size, lambda offset, count: files.read(inner, offset, count))
+
+    def _mounted(self, split: list[str]) -> tuple[Files, str] | None:
+        """The mount a path leads into, and the way on from there."""
+        for mount, files in self._mounts.items():
+            names = mount.split("/")
+            if split[: len(names)] == names:
+                return files, "/".join(split[len(names) :])
+        return None
 
     def _size_of_made(self, path: str) -> int:
         return len(self._made[path](""))

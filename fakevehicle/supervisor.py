@@ -213,8 +213,11 @@ class Supervisor:
             return Refusal.BELOW
         if self.mode is Mode.GUIDED and (not self.armed or self.airborne):
             return Refusal.NOT_LANDED if self.armed else Refusal.NOT_ARMED
+        flying = self.armed and self.airborne
         reason = self.ask(Event.ASK_TAKEOFF, now_us)
         if reason is None:
+            if flying:
+                self.notes.append((INFO, "Takeoff in flight: climbs from here, never sinks"))
             self.navigator.takeoff_z = z
             if self.mode is Mode.GUIDED:
                 self._stream.newest = None

@@ -60,6 +60,8 @@ from wire.framing import Framer
 
 TICK_US = 4_000
 READ_ONLY = frozenset({"MAV_SYS_ID", "SYSID_THISMAV"})
+LOG_FOLDERS = ("log", "fs/microsd/log")
+"""Where recordings are by MAVLink FTP: the second is where clients look for PX4's."""
 LOOK_US = 20_000
 """The supervisor looks at the estimate every fifth tick, when most streams are due too: reading it costs a third of a
 tick's physics."""
@@ -170,7 +172,9 @@ class Vehicle:
         recordings = self._files
         named = flavour.named(self.parameters)
         metadata = Metadata(named, READ_ONLY, self._now)
-        tree = Tree({PARAM_FILE: lambda query: pack(named, query), **metadata.files}, {"log": recordings})
+        tree = Tree(
+            {PARAM_FILE: lambda query: pack(named, query), **metadata.files}, dict.fromkeys(LOG_FOLDERS, recordings)
+        )
         refuse = Words(self._warn, self._now)
         missions = Missions(store, self._supervisor, self._places, self._outbox, refuse, flavour.habits)
         self._services: tuple[Service, ...] = (

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from fakevehicle.codec import Message
-from fakevehicle.flavours.ardupilot_modes import ARMING_WORDS, AUTO, BY_NUMBER, GUIDED, LAND, RTL
+from fakevehicle.flavours.ardupilot_modes import ARMING_WORDS, AUTO, BY_NUMBER, GUIDED, LAND, LOITER, RTL
 from fakevehicle.flavours.base import Parts
 from fakevehicle.modes import GUARDS, Event
 from fakevehicle.services.commands import FORCE
@@ -51,6 +51,7 @@ class ArduCommands(Service):
             return CommandSpec(lambda _s, _c, now_us: self._flavour.change(number, now_us), title, EVERY)
 
         return {
+            _m.MAV_CMD_NAV_LOITER_UNLIM: mode(LOITER, "Loiter"),
             _m.MAV_CMD_NAV_RETURN_TO_LAUNCH: mode(RTL, "RTL"),
             _m.MAV_CMD_NAV_LAND: mode(LAND, "Land"),
             _m.MAV_CMD_NAV_TAKEOFF: CommandSpec(self._takeoff, "Takeoff", EVERY),

@@ -213,8 +213,11 @@ class Navigation(Service):
     # The vehicle itself
 
     def _terminate(self, _sender: Sender, command: Command, now_us: int) -> Verdict:
-        """Motors off, wherever it is; parameter 1 above a half, as PX4 has it."""
-        return judged(self._supervisor.ask(Event.ASK_KILL, now_us)) if command.params[0] > 0.5 else ACCEPTED
+        """Motors off, wherever it is; parameter 1 above a half, as PX4 has it. Otherwise nothing, and that is said."""
+        if command.params[0] > 0.5:
+            return judged(self._supervisor.ask(Event.ASK_KILL, now_us))
+        self._outbox.text(_m.MAV_SEVERITY_INFO, "Termination not asked for, param1 is not 1: nothing done")
+        return ACCEPTED
 
     def _enable_fence(self, _sender: Sender, command: Command, _now_us: int) -> Verdict:
         """0 off, 1 on; the floor alone (2) is nothing this fence has."""

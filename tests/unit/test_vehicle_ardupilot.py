@@ -327,6 +327,13 @@ def test_parameters_have_ardupilots_names_units_and_casts(pilot: Pilot) -> None:
     assert struct.pack("<f", echo.param_value) != struct.pack("<i", 2000)
 
 
+def test_a_loiter_by_command_is_the_mode(pilot: Pilot) -> None:
+    fly(pilot)
+    assert pilot.command(_m.MAV_CMD_NAV_LOITER_UNLIM) == ACCEPTED
+    pilot.tick()
+    assert mode(pilot) == LOITER
+
+
 def test_a_mission_is_asked_for_in_the_old_form_and_its_first_item_is_home(pilot: Pilot) -> None:
     pilot.send(_m.MAVLink_mission_count_message(1, 1, 2, 0))
     assert kinds(pilot.tick()) == ["MISSION_REQUEST"]

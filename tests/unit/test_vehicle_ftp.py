@@ -6,12 +6,14 @@ from typing import Any
 
 import pytest
 
+from fakevehicle.config import VehicleConfig
 from fakevehicle.files import Entry, Files, MemoryFiles, Tree
 from fakevehicle.services import ftp, logs
 from fakevehicle.services.ftp import Ftp
 from fakevehicle.services.logs import Logs
 from fakevehicle.services.outbox import Outbox, Sender
 from fakevehicle.services.words import Words
+from fakevehicle.vehicle import Vehicle
 from wire.dialect import mavlink
 
 ACK, NAK = 128, 129
@@ -283,6 +285,34 @@ def test_what_is_no_file_cannot_be_opened(client: Client, path: bytes) -> None:
 def test_a_name_cannot_be_claimed_twice() -> None:
     with pytest.raises(ValueError, match="claimed twice: log"):
         Tree({"log/a": lambda _query: b""}, {"log": MemoryFiles()})
+
+
+def test_the_same_files_are_found_where_another_autopilots_clients_look_for_them() -> None:
+    files = MemoryFiles({"a.mcap": b"abc", "day/b.mcap": b"de"})
+    tree = Tree({"etc/p": lambda _query: b"x"}, {"log": files, "fs/microsd/log": files})
+
+    def names(path: str) -> list[str] | None:
+        listing = tree.listing(path)
+        return None if listing is None else [f"{e.name}{'/' if e.is_dir else ''}" for e in listing]
+
+    assert names("/") == ["etc/", "fs/", "log/"]
+    assert (names("fs"), names("/fs/microsd/")) == (["microsd/"], ["log/"])
+    assert names("/fs/microsd/log") == names("log") == ["a.mcap", "day/"]
+    assert names("/fs/microsd/log/day") == ["b.mcap"]
+    for folder in ("log", "/fs/microsd/log"):
+        opened = tree.open(f"{folder}/day/b.mcap")
+        assert opened is not None
+        assert opened.read(0, 9) == b"de"
+    assert (names("fs/other"), tree.open("/fs/microsd/log"), tree.open("fs/a.mcap")) == (None, None, None)
+
+
+def test_a_vehicle_serves_its_recordings_where_px4s_clients_look() -> None:
+    # the tree is the vehicle's own
+    vehicle = Vehicle(VehicleConfig(), files=MemoryFiles({"a.mcap": b"abc"}))
+    (service,) = [s for s in vehicle._services if isinstance(s, Ftp)]
+    listing = service._tree.listing("/fs/microsd/log")
+    assert listing is not None
+    assert [(e.name, e.size) for e in listing] == [("a.mcap", 3)]
 
 
 # Logs

@@ -797,6 +797,15 @@ def test_a_fence_that_is_switched_off_keeps_nobody(pilot: Pilot) -> None:
     assert pilot.command(207, 2) == DENIED
 
 
+def test_what_is_accepted_without_effect_is_said(pilot: Pilot) -> None:
+    airborne(pilot)
+    assert pilot.command(185, 0) == ACCEPTED
+    assert pilot.texts()[-1] == "Termination not asked for, param1 is not 1: nothing done"
+    assert pilot.command(22, NAN, NAN, NAN, NAN, NAN, NAN, NAN) == ACCEPTED
+    pilot.run(0.1)
+    assert pilot.texts()[-1] == "Takeoff in flight: climbs from here, never sinks"
+
+
 def test_a_termination_stops_the_motors_in_the_air(pilot: Pilot) -> None:
     airborne(pilot)
     assert pilot.command(185, 0) == ACCEPTED
