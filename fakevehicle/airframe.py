@@ -20,6 +20,8 @@ from fakevehicle.airframe_check import AIR_DENSITY, GRAVITY, Flaw, check
 from fakevehicle.battery import Pack
 from fakevehicle.errors import AirframeError
 from fakevehicle.params import Parameter
+from fakevehicle.physics.ground import POINTS
+from fakevehicle.physics.ground import POINTS
 from fakevehicle.vocabulary import FloatArray
 
 BODY = np.dtype(
@@ -40,7 +42,7 @@ BODY = np.dtype(
         ("drag_area", "f8", (3,)),
         ("air_density", "f8"),
         ("gravity", "f8"),
-        ("contact", "f8", (4, 3)),
+        ("contact", "f8", (POINTS, 3)),  # the feet, then the rotors' hubs
         ("ground", "f8"),  # z of the ground plane: the vehicle rests on it with its centre of mass at z = 0 [m]
         ("stiffness", "f8"),
         ("damping", "f8"),
@@ -159,7 +161,7 @@ class Airframe(BaseModel):
         b["tau_up"], b["tau_down"] = self.time_constant_up, self.time_constant_down
         b["c_d"], b["rotor_inertia"], b["radius"] = self.rotor_drag, self.rotor_inertia, self.propeller_radius
         b["drag_area"], b["air_density"], b["gravity"] = self.drag_area, AIR_DENSITY, GRAVITY
-        b["contact"] = self.contact_points_b
+        b["contact"] = [*self.contact_points_b, *(r.position_b for r in self.rotors)]
         b["stiffness"], b["damping"] = self.contact_stiffness, self.contact_damping
         b["friction"] = self.contact_friction
         foot = float(np.mean([point[2] for point in self.contact_points_b]))

@@ -400,7 +400,7 @@ def _start(airframe: Airframe, heading: float, wind_n: FloatArray) -> np.ndarray
     w = world[0]
     w["x"][6], w["x"][9] = math.cos(0.5 * heading), math.sin(0.5 * heading)
     c, s = math.cos(heading), math.sin(heading)
-    w["anchor"] = np.array(airframe.contact_points_b) @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    w["anchor"] = airframe.record()[0]["contact"] @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
     w["setpoint"] = np.nan
     w["steady"] = w["wind"] = wind_n
     speed = math.hypot(wind_n[0], wind_n[1])

@@ -18,7 +18,7 @@ from fakevehicle.control.fractional import SECTIONS
 from fakevehicle.estimator.predictor import PREDICTOR, advance_output
 from fakevehicle.jit import kernel
 from fakevehicle.physics.dynamics import STATE, step
-from fakevehicle.physics.ground import settle
+from fakevehicle.physics.ground import POINTS, settle
 from fakevehicle.physics.wind import TURBULENCE, scheduled, turbulence
 from fakevehicle.sensors.imu import IMU, integrate_imu, read_gyro, walk_biases
 
@@ -36,7 +36,7 @@ WORLD = np.dtype(
         ("x", "f8", (STATE,)),
         ("work", "f8", (6, STATE)),
         ("velocity_before", "f8", (3,)),  # at the beginning of the tick, in n [m/s]
-        ("anchor", "f8", (4, 3)),  # where each foot holds the ground
+        ("anchor", "f8", (POINTS, 3)),  # where each foot, or hub, holds the ground
         ("setpoint", "f8", (SETPOINT,)),
         ("thrust", "f8"),  # collective the loops ask for, or the turning motors give, 0..1 of the maximum
         ("effort", "f8"),  # mean of the rotors' (speed / full speed)^3

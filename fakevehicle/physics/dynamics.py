@@ -34,7 +34,7 @@ def derivative(x, command, wind_n, anchor, body, dx):
     x, dx : (17,) state and its derivative.
     command : (4,) rotor speed setpoints [rad/s].
     wind_n : (3,) velocity of the air over ground [m/s].
-    anchor : (4, 3) where each foot holds the ground (`ground.add_contact`).
+    anchor : (4 or 8, 3) where each foot, and each hub, holds the ground (`ground.add_contact`).
     body : record of `airframe.BODY`.
     """
     qw, qx, qy, qz = x[6], x[7], x[8], x[9]

@@ -2,6 +2,9 @@
 # kernels: numba types them by their arguments, which the docstrings name
 """The ground: a flat plane, four feet on springs, Coulomb friction that really holds.
 
+A vehicle that leans further than `LEANING` may also touch it with its rotors' hubs, four more points on such springs:
+it comes to lie on its side or its back, and not in the ground.
+
 Normal force of a foot at depth d: N = max(0, k d + c d'). Along the plane each foot hangs on a spring between itself
 and its anchor, the point where it holds; when that spring would pull harder than mu N the foot slips and the anchor
 follows. A smoothed Coulomb law would creep; this one stands still.
@@ -11,10 +14,34 @@ import math
 
 from fakevehicle.jit import kernel
 
+FEET, POINTS = 4, 8
+"""The feet come first; the points after them are the rotors' hubs."""
+LEANING = 0.9
+"""Cosine of the tilt below which the hubs are looked at."""
+
+
+@kernel
+def points(x, anchor):
+    """How many points of the vehicle may touch the ground as it stands now; as many as have an anchor at most."""
+    level = 1.0 - 2.0 * (x[7] * x[7] + x[8] * x[8])
+    return FEET if level > LEANING else anchor.shape[0]
+
+FEET, POINTS = 4, 8
+"""The feet come first; the points after them are the rotors' hubs."""
+LEANING = 0.9
+"""Cosine of the tilt below which the hubs are looked at."""
+
+
+@kernel
+def points(x, anchor):
+    """How many points of the vehicle may touch the ground as it stands now; as many as have an anchor at most."""
+    level = 1.0 - 2.0 * (x[7] * x[7] + x[8] * x[8])
+    return FEET if level > LEANING else anchor.shape[0]
+
 
 @kernel
 def foot_force(x, i, anchor, body):
-    """Force of the ground on foot `i` in n and where the foot is.
+    """Force of the ground on foot (or hub) `i` in n and where it is.
 
     Returns
     -------
@@ -53,7 +80,7 @@ def foot_force(x, i, anchor, body):
 def add_contact(x, anchor, body):
     """Ground force in n [N] and its torque in b [N m], summed over the feet: fx, fy, fz, tx, ty, tz."""
     fx, fy, fz, mx, my, mz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(4):
+    for i in range(points(x, anchor)):
         gx, gy, gz, rx, ry, rz, slip = foot_force(x, i, anchor, body)
         if slip >= 0.0:
             fx += gx
@@ -73,7 +100,7 @@ def add_contact(x, anchor, body):
 def settle(x, anchor, body):
     """Move the anchors of feet that slip or hang in the air, after every step. Returns whether any foot touches."""
     touches = False
-    for i in range(4):
+    for i in range(points(x, anchor)):
         fx, fy, _, rx, ry, _, slip = foot_force(x, i, anchor, body)
         if slip < 0.0:
             anchor[i, 0] = x[0] + rx
