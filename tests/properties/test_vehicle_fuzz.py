@@ -250,6 +250,24 @@ def test_200_000_datagrams_change_nothing_and_leave_nothing_behind(monkeypatch: 
 
 
 @pytest.mark.slow
+def test_the_whole_vehicle_hovers_through_as_many_in_ardupilots_flavour() -> None:
+    """The same with physics, sensors, estimator and loops underneath: it stays where it is."""
+    pilot = Pilot(vehicle_with_a_log("ardupilot"))
+    pilot.run(9.0)
+    assert (pilot.command(176, 1, 4), pilot.command(400, 1), pilot.command(22, 0, 0, 0, 0, 0, 0, 5)) == (0, 0, 0)
+    pilot.run(9.0)
+    before, flood = state(pilot), Flood(pilot, 3)
+    place_n = pilot.vehicle.truth.position_n
+    assert before[4]  # airborne
+    flooded(pilot, flood, TICKS, flood.next, lambda: pilot.bytes_of(m.MAVLink_ping_message(1, 2, 0, 0)))
+    assert state(pilot) == before
+    assert abs(pilot.vehicle.truth.position_n - place_n).max() < 1.0
+    counters = pilot.vehicle.counters
+    assert counters.packets > TICKS * EACH // 4
+    assert counters.bad_crc > TICKS * EACH // 8
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("autopilot", ["px4", "ardupilot"])
 def test_orders_spoilt_in_a_field_are_answered_or_refused_but_never_fatal(
     monkeypatch: pytest.MonkeyPatch, autopilot: Autopilot
