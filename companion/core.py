@@ -38,6 +38,8 @@ VEHICLE_SILENT_US = 3_000_000
 POSITION_SILENT_US = 1_000_000
 ASTRAY_M, ASTRAY_US = 2.0, 1_000_000
 """Farther than this from the reference for this long, and the flight lands: no plan vouches for such a place."""
+BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGING, Phase.ARMING)
+"""Phases in which giving up costs nothing."""
 PARAMETER_WAIT_US = 2_000_000
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
@@ -153,26 +155,31 @@ class Companion:
                     self.link.impostor = ""
                 out.extend(Datagram(ground, data) for ground in self.config.ground_links)
             case Datagram(link=link, data=data) if link in self.config.ground_links:
-                answers, orders = self.ground.take(now_us, item)
-                out.extend(answers)
-                for order in orders:
-                    self._take_order(order, out)
+                out.extend(self.ground.take(now_us, item, lambda order: self.obey(now_us, order)))
                 if self.link.may_speak:
                     out.append(Datagram(VEHICLE_LINK, data, self.link.peer))
             case ReplanReady():
                 self.replanning.take(item, now_us)
             case PlanReady():
-                self._take_plan(item, out)
+                self._take_plan(now_us, item, out)
             case Order():
-                self._take_order(item, out)
+                reason = self.obey(now_us, item)
+                by = f" ({item.source})" if item.source else ""
+                told = Note(Level.WARNING, f"{item.name}{by}: {reason}") if reason else Note(Level.INFO, item.name + by)
+                out.extend([told] if reason or item.name != "land" else [])
 
-    def _take_order(self, order: Order, out: list[Output]) -> None:
-        if order.name == "land":
+    def obey(self, now_us: int, order: Order) -> str:
+        """Carry out an order: why it cannot be done, or nothing."""
+        if order.name == "land" or (order.name == "abort" and self.phase in BEFORE_FLIGHT):
             self._land_asked = True
-        else:
-            out.append(Note(Level.WARNING, f"{order.name}: not an order that can be carried out"))
+            return ""
+        if self.phase is not Phase.FLYING:
+            return f"not while {self.phase.value}"
+        return self.itinerary.order(now_us, order)
 
-    def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
+    def _take_plan(self, now_us: int, ready: PlanReady, out: list[Output]) -> None:
+        if self.itinerary.answer(now_us, ready):
+            return
         if self.phase is not Phase.PLANNING or not self.itinerary.wants(ready.request_id):
             return  # an answer to nothing that was asked
         leg = f"step {ready.request_id}"
@@ -274,6 +281,9 @@ class Companion:
             return Event.ASTRAY
         if self.itinerary.advance(now_us):
             out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.step.kind}"))
+        out.extend(self.itinerary.take_said())
+        if self.itinerary.cut_short:
+            self._blame(self.itinerary.cut_short)
         return Event.STEPS_DONE if self.itinerary.finished() else None
 
     def _astray(self, now_us: int) -> str:

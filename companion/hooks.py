@@ -4,12 +4,17 @@ The core calls each of them at its place in the tick, whether or not there is on
 step machines like the core itself: time is handed in, nothing is read or sent, and nothing raises for what a peer said.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 from companion.seam import FloatArray, Order, ReplanReady, ReplanWanted
 from wire.datagram import Datagram
 from wire.framing import Packet
+
+
+Obey = Callable[[Order], str]
+"""Carries out an order: why it cannot be done, or nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +59,8 @@ class Replanning(Protocol):
 class Ground(Protocol):
     """Ground stations that speak to the companion itself (component 191) rather than to the vehicle."""
 
-    def take(self, now_us: int, datagram: Datagram) -> tuple[list[Datagram], list[Order]]:
-        """A ground station's datagram: what to answer (addressed), and what was ordered."""
+    def take(self, now_us: int, datagram: Datagram, obey: Obey) -> list[Datagram]:
+        """A ground station's datagram: what to answer (addressed). What it orders is carried out by `obey`."""
         ...
 
     def step(self, now_us: int) -> list[Datagram]:
@@ -88,8 +93,8 @@ class NothingReplanned:
 class NobodyAsks:
     """No ground station speaks to the companion."""
 
-    def take(self, now_us: int, datagram: Datagram) -> tuple[list[Datagram], list[Order]]:
-        return [], []
+    def take(self, now_us: int, datagram: Datagram, obey: Obey) -> list[Datagram]:
+        return []
 
     def step(self, now_us: int) -> list[Datagram]:
         return []

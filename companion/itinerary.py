@@ -2,6 +2,10 @@
 
 Legs are planned before anything moves (`wanted`); takeoff is a straight climb, hold keeps the last point, and land is
 where this file ends: the vehicle lands by itself. Everything here is in the mission frame (NED).
+
+Orders in flight (`order`) never jump. `hold` slows the walk to rest on the very path that is proved clear, `resume`
+lets it go on. `goto` and `return` come to rest likewise and then fly an errand: one leg, planned from there, while the
+mission waits below it; `resume` first plans the way back to where the mission was left.
 """
 
 import math
@@ -9,19 +13,21 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from companion.legs import Leg, circle_flaw, column_flaw, lay_out, place, radius_of, vector
 from companion.mission import Mission
-from companion.profile import StraightMove
-from companion.seam import FloatArray, PlanWanted, Reference
+from companion.pace import go_us, paced, stop_us
+from companion.profile import Circle, Turn
+from companion.seam import FloatArray, Flown, Level, Note, Order, PlanReady, PlanWanted, Reference
 from companion.steps import Step
+from companion.walk import Walk
 from planner import Limits, Trajectory
 
 SPOOL_UP_S = 1.0
 """Between the word that it is armed and the first climb: PX4 spools its motors up for COM_SPOOLUP_TIME, 1 s."""
-
-COLUMN_STEP = 0.02
-"""Spacing of the samples along climb and landing [m]."""
-
-Path = StraightMove | Trajectory
+ERRANDS = 1_000_000
+"""Plans of errands are numbered from here, those of steps by their step."""
+HERE = 1e-3
+"""A place nearer than this needs no plan [m]."""
 
 
 @dataclass(slots=True)
@@ -32,125 +38,315 @@ class Itinerary:
     ----------
     mission : what to fly.
     seed : for the planner; the leg of step k is planned with seed + k.
-    yaw : where the nose points throughout [rad].
+    yaw : where the nose points [rad], until a step turns it.
+    cut_short : by which order the mission did not go to its end; empty otherwise.
     """
 
     mission: Mission
     seed: int
     yaw: float = 0.0
-    index: int = 0
-    _ends: list[FloatArray] = field(init=False)  # (3,) each: where step k ends; _ends[-1] is where the flight begins
-    _paths: dict[int, Path] = field(init=False)  # by step index
-    _entered_us: int | None = None
+    _start: FloatArray = field(init=False)  # (3,) where the flight begins
+    _main: Walk = field(init=False)
+    _errand: Walk | None = None  # what is flown instead of the mission
+    _paused: bool = False
+    _next: Order | None = None  # to be carried out as soon as it is at rest
+    _asked: PlanWanted | None = None  # of an errand
+    _purpose: Order | None = None  # of the errand, until it is there
+    _landing: bool = False  # an order ends the flight here
+    cut_short: str = ""
+    _requests: int = 0
+    _said: list[PlanWanted | Note] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        here = start = np.array(self.mission.start_m())
-        limits = self.mission.planner_limits()
-        climb = Limits(speed=self.mission.limits.climb, acceleration=limits.acceleration, jerk=limits.jerk)
-        self._ends, self._paths = [], {}
-        for i, step in enumerate(self.mission.steps):
-            if step.takeoff is not None:
-                there = np.array([here[0], here[1], -step.takeoff.altitude])
-                self._paths[i] = StraightMove.within(here, there, climb)
-                here = there
-            elif step.goto is not None:
-                here = np.array(step.goto.ned())
-            self._ends.append(here)
-        self._ends.append(start)
+        self.stand(np.array(self.mission.start_m()))
+
+    def stand(self, start_m: FloatArray) -> None:
+        """Lay the steps out from where the vehicle stands (3,); before `wanted`."""
+        self._start = start_m
+        self._main = Walk(lay_out(self.mission, self.seed, vector(start_m)))
+
+    # ---- on the ground ------------------------------------------------------------------------------------------
 
     def wanted(self) -> list[PlanWanted]:
         """One request a leg, from where the step before ends; `request_id` is the step's index."""
-        return [
-            PlanWanted(
-                request_id=i,
-                start_m=_vector(self._ends[i - 1]),
-                goal_m=_vector(self._ends[i]),
-                limits=self.mission.planner_limits(),
-                radius=self.mission.planner_radius(),
-                seed=self.seed + i,
-                method=self.mission.method,
-            )
-            for i, step in enumerate(self.mission.steps)
-            if step.goto is not None
-        ]
+        return [leg.wanted for leg in self._main.legs if leg.wanted is not None]
 
     def wants(self, request_id: int) -> bool:
-        """Whether this is the number of a leg."""
-        return 0 <= request_id < len(self.mission.steps) and self.mission.steps[request_id].goto is not None
+        """Whether this is the number of a leg of the mission."""
+        return 0 <= request_id < len(self._main.legs) and self._main.legs[request_id].wanted is not None
 
     def take(self, request_id: int, trajectory: Trajectory) -> None:
         """Keep the trajectory of one leg."""
-        self._paths[request_id] = trajectory
-
-    def obstruction(self) -> str:
-        """Why the climb or the landing cannot be flown, or nothing.
-
-        Both are vertical, through the points where takeoff and mission end. They keep the planner's radius from every
-        obstacle; samples every `COLUMN_STEP` prove it for all between, since a distance changes no faster than the
-        point moves. From the map's walls the upper end keeps the radius; the ground is what they lead to.
-        """
-        world, radius = self.mission.planner_world(), self.mission.planner_radius()
-        for what, top in (("the climb", self._ends[0]), ("the landing", self._ends[-2])):
-            place = f"north {top[0]:g}, east {top[1]:g}, altitude {-top[2]:g}"
-            margin = float(world.wall_distance(top[None])[0]) - radius
-            if margin < 0.0:
-                return f"{what} at {place} is {-margin:.2f} m too near the bounds (it keeps {radius:g} m)"
-            column = np.repeat(top[None], max(2, math.ceil(-top[2] / COLUMN_STEP) + 1), axis=0)
-            column[:, 2] = np.linspace(0.0, top[2], len(column))
-            least = float(world.distance(column).min()) - abs(top[2]) / (len(column) - 1) / 2.0
-            if least < radius:
-                return f"{what} at {place} is {radius - least:.2f} m too near an obstacle (it keeps {radius:g} m)"
-        return ""
+        self._main.legs[request_id].planned = trajectory
 
     def planned(self) -> bool:
         """Whether every leg has its trajectory."""
-        return all(step.goto is None or i in self._paths for i, step in enumerate(self.mission.steps))
+        return all(leg.ready for leg in self._main.legs)
+
+    def obstruction(self) -> str:
+        """Why the climb, an orbit or the landing cannot be flown, or nothing; legs are the planner's to refuse."""
+        world, radius, legs = self.mission.planner_world(), self.mission.planner_radius(), self._main.legs
+        for what, top in (("the climb", legs[0].end), ("the landing", legs[-1].end)):
+            flaw = column_flaw(world, top, radius)
+            if flaw:
+                return f"{what} at {place(top)} is {flaw}"
+        for i, leg in enumerate(legs):
+            circle = leg.then[-1] if leg.then else None
+            flaw = circle_flaw(world, circle, radius_of(self.mission, leg.step)) if isinstance(circle, Circle) else ""
+            if flaw:
+                return f"the orbit of step {i} is {flaw}"
+        return ""
+
+    # ---- in the air ---------------------------------------------------------------------------------------------
+
+    @property
+    def index(self) -> int:
+        return self._main.index
 
     @property
     def step(self) -> Step:
-        return self.mission.steps[self.index]
+        return self._main.leg.step
 
     def begin(self, now_us: int) -> None:
         """Start walking: the takeoff begins after the motors have spooled up."""
-        self._entered_us = now_us + round(SPOOL_UP_S * 1e6)
+        self._main.entered_us = now_us + round(SPOOL_UP_S * 1e6)
+
+    def airborne(self, now_us: int) -> None:
+        """Start walking with the takeoff done by somebody else: the step after it begins."""
+        self._main.index, self._main.entered_us = 1, now_us
+        self._enter()
 
     def advance(self, now_us: int) -> bool:
         """Move on from every step whose time is over; True when the step changed."""
-        before = self.index
-        while self._entered_us is not None and self.step.land is None:
-            end_us = self._entered_us + round(self._duration() * 1e6)
-            if now_us < end_us:
+        self._follow_orders(now_us)
+        before, walk = self._main.index, self._main
+        while self._errand is None and walk.entered_us is not None and self.step.land is None:
+            duration = walk.duration()
+            if math.isinf(duration):
                 break
-            self.index, self._entered_us = self.index + 1, end_us
-        return self.index != before
+            end_us = walk.entered_us + round(duration * 1e6)
+            if walk.pace.at(now_us).us < end_us:
+                break
+            if walk.released:  # at an order, not by the clock
+                end_us = round(walk.pace.at(now_us).us)
+            self._leave()
+            walk.index, walk.entered_us = walk.index + 1, end_us
+            self._enter()
+        return walk.index != before
 
     def finished(self) -> bool:
         """Whether only landing is left."""
-        return self.step.land is not None
+        return self._landing or (self._errand is None and self.step.land is not None)
 
     def reference(self, now_us: int) -> Reference:
         """Where the vehicle should be at `now_us`."""
-        path = self._paths.get(self.index)
-        if path is None:
-            return self.rest()
-        t = 0.0 if self._entered_us is None else (now_us - self._entered_us) / 1e6
-        state = path.state(t)
-        return Reference(state.position, state.velocity, state.acceleration, self.yaw)
-
-    def rest(self) -> Reference:
-        """At rest where the current step ends (hold, land)."""
-        return Reference(self._ends[self.index], np.zeros(3), np.zeros(3), self.yaw)
+        walk = self._top
+        time, seconds = walk.pace.at(now_us), walk.seconds(now_us)
+        state = paced(walk.motion(seconds), time)
+        yaw = self.yaw if walk.turn is None else walk.turn.yaw(seconds)
+        return Reference(state.position, state.velocity, state.acceleration, yaw)
 
     def remaining(self, position_m: FloatArray) -> float:
         """Straight distance [m] to where the current step ends."""
-        return float(np.linalg.norm(self._ends[self.index] - position_m))
+        return float(np.linalg.norm(self._top.leg.end - position_m))
 
-    def _duration(self) -> float:
-        if self.step.hold is not None:
-            return self.step.hold.seconds
-        path = self._paths.get(self.index)
-        return 0.0 if path is None else float(path.duration)
+    def rejoin(self, now_us: int, position_m: FloatArray) -> None:
+        """Hold a place (3,) that is off the path, and go back from there to where the mission was left.
 
+        For a vehicle that is not where it was meant to be; `holding` is False once it is back.
+        """
+        self._main.pace.halt(now_us)
+        self._errand = Walk([Leg(self.step, position_m)], entered_us=now_us)
+        self._errand.pace.halt(now_us)
+        self._purpose = None
+        self._pause(Order("resume"))
 
-def _vector(a: FloatArray) -> tuple[float, float, float]:
-    return (float(a[0]), float(a[1]), float(a[2]))
+    def release(self) -> None:
+        """What the step waits for has happened."""
+        if self.step.wait is not None:
+            self._main.released = True
+
+    def take_said(self) -> list[PlanWanted | Note]:
+        """Plans that an order needs, and what people should know; each is told once."""
+        said, self._said = self._said, []
+        return said
+
+    # ---- what is flown, for those who plan it again -------------------------------------------------------------
+
+    def flown(self, now_us: int) -> Flown | None:
+        """The planned trajectory that is flown at its own pace, if one is."""
+        walk, seconds = self._top, self._top.seconds(now_us)
+        planned = walk.leg.planned
+        if planned is None or walk.entered_us is None or not walk.pace.running(now_us) or self._paused:
+            return None
+        if seconds < 0.0 or (seconds >= planned.duration and not walk.open_ended):
+            return None
+        start_us = now_us - round(walk.pace.at(now_us).us - walk.entered_us)
+        return Flown(planned, start_us, not walk.open_ended)
+
+    def aim(self) -> PlanWanted | None:
+        """What the leg under way was planned for: its goal, limits and radius."""
+        return self._top.leg.wanted
+
+    def follow(self, now_us: int, flown: Flown) -> None:
+        """Fly this from now on instead of the planned leg; only while `flown` is not None."""
+        walk = self._top
+        if walk.leg.planned is flown.trajectory:
+            return
+        walk.leg.planned, walk.open_ended = flown.trajectory, not flown.to_goal
+        walk.entered_us = round(walk.pace.at(now_us).us) - (now_us - flown.start_us)
+
+    # ---- orders -------------------------------------------------------------------------------------------------
+
+    def order(self, now_us: int, order: Order) -> str:
+        """Carry out an order while flying: why it cannot be done, or nothing."""
+        if order.name == "resume":
+            return self._resume(now_us)
+        if order.name == "hold" and self._paused and self._next is None:
+            return "it holds already"
+        if order.name == "hold":
+            self._pause(None)
+        elif order.name in ("goto", "return"):
+            goal = self._goal(now_us, order)
+            flaw = self._goal_flaw(goal, lands=order.name == "return")
+            if flaw:
+                return f"{place(goal)} is {flaw}"
+            self._pause(order)
+        elif order.name == "abort":
+            self._pause(order)
+        else:
+            return f"{order.name} is nothing that can be ordered in flight"
+        return ""
+
+    @property
+    def holding(self) -> bool:
+        """Whether an order keeps the mission from going on."""
+        return self._paused or self._errand is not None
+
+    def answer(self, now_us: int, ready: PlanReady) -> bool:
+        """Take the plan of an errand; False when it is not one that was asked for."""
+        asked, order = self._asked, self._next
+        if asked is None or order is None or ready.request_id != asked.request_id:
+            return False
+        self._asked = self._next = None
+        if ready.trajectory is None or not ready.certified:
+            reason = ready.text or ready.error or "not certified"
+            self._said.append(Note(Level.WARNING, f"{order.name}: {reason}: holding"))
+            return True
+        leg = Leg(self.step, np.array(asked.goal_m), asked, ready.trajectory)
+        self._errand, self._purpose = Walk([leg], entered_us=now_us), order
+        self._paused = False
+        return True
+
+    @property
+    def _top(self) -> Walk:
+        return self._main if self._errand is None else self._errand
+
+    def _enter(self) -> None:
+        step, walk = self.step, self._main
+        walk.released = walk.open_ended = False
+        if step.yaw is not None:
+            walk.turn = Turn.within(self.yaw, math.radians(step.yaw.heading_deg), math.radians(step.yaw.rate_deg))
+
+    def _leave(self) -> None:
+        if self._main.turn is not None:
+            self.yaw, self._main.turn = self._main.turn.yaw(math.inf), None
+
+    def _pause(self, then: Order | None) -> None:
+        """Come to rest; `then` is carried out there."""
+        self._paused, self._next, self._asked = True, then, None
+
+    def _resume(self, now_us: int) -> str:
+        if self._errand is not None and self._arrived(now_us):
+            self._pause(Order("resume"))  # plan the way back to where the mission was left
+        elif self._paused:
+            self._paused, self._next, self._asked = False, None, None
+        elif self._errand is None and self.step.wait is not None:
+            self.release()
+        else:
+            return "nothing is held"
+        return ""
+
+    def _arrived(self, now_us: int) -> bool:
+        """Whether the errand is where it was sent."""
+        return self._errand is not None and self._errand.seconds(now_us) >= self._errand.duration()
+
+    def _follow_orders(self, now_us: int) -> None:
+        """Bring the pace to what is ordered, and begin what waits for rest."""
+        walk = self._top
+        if walk.entered_us is None:
+            return
+        if self._arrived(now_us) and self._purpose is not None and not self._paused:
+            order, self._purpose = self._purpose, None
+            self._arrive(now_us, order)
+        elif self._paused and walk.pace.running(now_us):
+            walk.pace.stop(now_us, stop_us(walk.motion, walk.seconds(now_us), self._limits(walk)))
+        elif not self._paused and walk.pace.still(now_us):
+            walk.pace.go(now_us, go_us(walk.motion, walk.seconds(now_us), self._limits(walk)))
+        elif self._paused and walk.pace.still(now_us) and self._next is not None and self._asked is None:
+            self._run(now_us, self._next)
+
+    def _run(self, now_us: int, order: Order) -> None:
+        """At rest: ask for the plan of an errand, or end the flight."""
+        here = self.reference(now_us).position_m
+        if order.name == "abort":
+            self._next = None
+            flaw = column_flaw(self.mission.planner_world(), here, self.mission.vehicle.radius)
+            if flaw:
+                self._said.append(Note(Level.WARNING, f"abort: no landing, since {place(here)} is {flaw}: holding"))
+            else:
+                self._end("abort")
+            return
+        goal = self._goal(now_us, order)
+        if float(np.linalg.norm(goal - here)) < HERE:
+            self._next = None
+            self._arrive(now_us, order)
+            return
+        self._requests += 1
+        self._asked = PlanWanted(
+            request_id=ERRANDS + self._requests,
+            start_m=vector(here),
+            goal_m=vector(goal),
+            limits=self.mission.planner_limits(),
+            radius=self.mission.planner_radius(),
+            seed=self.seed,
+            method=self.mission.method,
+        )
+        self._said.append(self._asked)
+
+    def _arrive(self, now_us: int, order: Order) -> None:
+        """An errand is where it was sent."""
+        if order.name == "goto":
+            here = place(self.reference(now_us).position_m)
+            self._said.append(Note(Level.INFO, f"at {here}, holding until ordered on"))
+        elif order.name == "return":
+            self._end("return")
+        else:  # back where the mission was left
+            self._errand, self._paused = None, False
+
+    def _end(self, order: str) -> None:
+        self._landing, self.cut_short = True, f"cut short in step {self.index} by the order to {order}"
+
+    def _goal(self, now_us: int, order: Order) -> FloatArray:
+        if order.name == "goto":
+            north, east, altitude = order.values if len(order.values) == 3 else (math.nan,) * 3
+            return np.array([north, east, -altitude])
+        if order.name == "return":
+            return np.array([self._start[0], self._start[1], self.reference(now_us).position_m[2]])
+        return self._main.motion(self._main.seconds(now_us)).position
+
+    def _goal_flaw(self, goal: FloatArray, lands: bool) -> str:
+        """Why one cannot go to a place, or nothing."""
+        if not np.isfinite(goal).all():
+            return "not a place"
+        radius, fence, world = self.mission.planner_radius(), self.mission.geofence(), self.mission.planner_world()
+        if fence is not None and (flaw := fence.told(goal, radius)):
+            return flaw
+        for what, distance in (("the bounds", world.wall_distance), ("an obstacle", world.distance)):
+            lack = radius - float(distance(goal[None])[0])
+            if lack > 0.0:
+                return f"{lack:.2f} m too near {what} (it keeps {radius:g} m)"
+        return column_flaw(world, goal, radius) if lands else ""
+
+    def _limits(self, walk: Walk) -> Limits:
+        return walk.leg.wanted.limits if walk.leg.wanted is not None else self.mission.planner_limits()
