@@ -6,7 +6,7 @@ stderr without a traceback. Heavy imports happen inside the commands, so that `-
 
 import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated, Literal, NoReturn
 
 import typer
 
@@ -73,6 +73,25 @@ def simulate(
     from companion.cli.simulate import simulate_mission
 
     raise typer.Exit(simulate_mission(mission, seed, record, json))
+
+
+@app.command("test")
+def missions(
+    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="Mission files, or folders of them.")],
+    autopilot: Annotated[
+        Literal["px4", "ardupilot", "both"], typer.Option(help="Whose behaviour the bundled vehicle shows.")
+    ] = "px4",
+    seeds: Annotated[int, typer.Option(help="Fly each with the seeds 1 to this.", min=1, max=10_000)] = 1,
+    jobs: Annotated[int, typer.Option("-j", "--jobs", help="Processes.", min=1, max=64)] = 2,
+    record: Annotated[
+        Path, typer.Option("--record", metavar="DIR", help="Where recordings of flights that failed are kept.")
+    ] = RECORDINGS / "failed",
+    json: Json = False,
+) -> None:
+    """Fly mission files in lockstep, and hold each against what it expects; the first cause of a failure is named."""
+    from companion.cli.test import fly_missions
+
+    raise typer.Exit(fly_missions(paths, autopilot, seeds, jobs, record, json))
 
 
 @app.command()
