@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from companion.seam import FloatArray, Order, ReplanReady, ReplanWanted
+from companion.seam import FloatArray, Note, Order, ReplanReady, ReplanWanted
 from wire.datagram import Datagram
 from wire.framing import Packet
 
@@ -32,6 +32,10 @@ class Pose:
 class Seeing(Protocol):
     """Obstacles and movers, as sensors tell of them."""
 
+    def begin(self) -> None:
+        """The mission frame is known: places count from now on."""
+        ...
+
     def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
         """One packet of any component of the vehicle's system, or of a sensors' link; whether it told of something."""
         ...
@@ -51,8 +55,12 @@ class Replanning(Protocol):
         """An answer."""
         ...
 
-    def step(self, flight_us: int, pose: Pose, seeing: Seeing) -> ReplanWanted | None:
-        """Once a tick while FLYING; the next question, if it is time for one."""
+    def step(self, flight_us: int, pose: Pose) -> list[ReplanWanted]:
+        """Once a tick while FLYING; the questions to ask now."""
+        ...
+
+    def take_said(self) -> list[Note]:
+        """What people should know; each is told once."""
         ...
 
 
@@ -71,6 +79,9 @@ class Ground(Protocol):
 class NothingSeen:
     """There are no sensors."""
 
+    def begin(self) -> None:
+        pass
+
     def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
         return False
 
@@ -86,8 +97,11 @@ class NothingReplanned:
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         pass
 
-    def step(self, flight_us: int, pose: Pose, seeing: Seeing) -> ReplanWanted | None:
-        return None
+    def step(self, flight_us: int, pose: Pose) -> list[ReplanWanted]:
+        return []
+
+    def take_said(self) -> list[Note]:
+        return []
 
 
 class NobodyAsks:

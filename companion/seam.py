@@ -94,6 +94,7 @@ class ReplanWanted:
     fresh: bool  # begin anew with `flown`; else it is what the answer before said
     map: MapView | None  # None: as in the question before
     movers: tuple[MovingSphere, ...]  # stamps in seconds of the flight clock
+    cold: bool = False  # a plan from scratch, from where `flown` is at `switch_us`; the question stands by itself
 
 
 @dataclass(frozen=True, slots=True)

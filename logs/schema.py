@@ -133,6 +133,7 @@ class ReplanWanted:
     map_crc32: int = 0
     map_runs: int = 0
     movers: tuple[float, ...] = ()  # (10 k,) centre, velocity, radius, growth, stamp, until each
+    cold: bool = False  # a plan from scratch, from where what is flown is at `switch_us`
 
 
 @dataclass(frozen=True, slots=True)

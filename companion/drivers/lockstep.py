@@ -6,7 +6,7 @@ from typing import Protocol
 from companion.core import Companion
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
-from companion.seam import Input, Order, PlanWanted
+from companion.seam import Input, Order, PlanWanted, ReplanWanted
 from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Address, Datagram
 
@@ -83,7 +83,7 @@ def fly_lockstep(
         for output in outputs:
             if isinstance(output, Datagram) and output.link == VEHICLE_LINK:
                 to_vehicle.append(Datagram(vehicle_link, output.data, COMPANION_ADDRESS))
-            elif isinstance(output, PlanWanted):
+            elif isinstance(output, PlanWanted | ReplanWanted):
                 planning.submit(output)
         tick = Tick(index, now_us, inputs, outputs, now_us)
         for tap in taps:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from companion.core import Companion
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
-from companion.seam import Input, Order, PlanWanted
+from companion.seam import Input, Order, PlanWanted, ReplanWanted
 from wire.datagram import Datagram
 from wire.udp import UdpLink, wait
 
@@ -61,7 +61,7 @@ def fly_realtime(
         for output in outputs:
             if isinstance(output, Datagram):
                 links[output.link].send(output)
-            elif isinstance(output, PlanWanted):
+            elif isinstance(output, PlanWanted | ReplanWanted):
                 planning.submit(output)
         tick = Tick(index, now_us, inputs, outputs, (time.monotonic_ns() + epoch_ns) // 1000)
         for tap in taps:

@@ -168,6 +168,7 @@ def _replan_wanted(item: ReplanWanted) -> schema.ReplanWanted:
         movers=tuple(
             number for m in item.movers for number in (*m.centre, *m.velocity, m.radius, m.growth, m.stamp, m.until)
         ),
+        cold=item.cold,
     )
 
 

@@ -1,0 +1,320 @@
+"""Planning in flight, the companion's half: when to ask, what to take, and what to fly when there is no answer.
+
+    boundary k      what was asked at boundary k - 1 is due. Its answer is held against the newest map (`guard`) and
+                    flown from the boundary on; then the next question goes out, about boundary k + 1
+    no answer, one that nothing proves, or one that the guard refuses
+                    the stop that came with the answer before is flown: it begins at this very boundary
+    at a stop       a plan from scratch is asked for beside the other questions, from where the stop ends
+
+So what planning takes is part of the plan: a question is asked a whole period ahead of its switch, and every answer
+brings the stop for the case that the next one does not come. Boundaries are `period_us` apart; after `LATE` answers in
+a row that came too late the period doubles, up to `LONGEST_US`. A late answer is counted and dropped.
+
+Nothing here plans: `drivers.replanning` does, in line or in a process of its own.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from companion.guard import clear_for
+from companion.hooks import Pose
+from companion.itinerary import Itinerary
+from companion.mission import Mission
+from companion.motion import JOINT, end_us, joint, state_at
+from companion.seam import Flown, Level, Note, PlanWanted, ReplanReady, ReplanWanted
+from companion.seeing.sight import Sight
+from planner import Trajectory
+from planner.backup import dash
+
+PERIOD_US, LONGEST_US = 100_000, 400_000
+LATE = 3
+LADDER = (1.0, 0.85, 0.7)
+"""Parts of the radius with which a plan from scratch is tried in turn, where noise has put cells within the radius."""
+TIGHTEST = 0.03
+"""Hull to what is seen, at least [m]; the guard keeps the same."""
+AGAIN_US = 500_000
+"""Between two plans from scratch."""
+PATIENCE_US = 1_000_000
+"""At a stop for so long, and it is told that there is no way on."""
+
+
+class Replanning:
+    """The replanning of one flight.
+
+    Parameters
+    ----------
+    mission, itinerary : what is flown.
+    sight : what is seen.
+    seed : for plans from scratch.
+
+    Attributes
+    ----------
+    trouble : why the vehicle stands at a stop on the way; empty otherwise.
+    asked, late, refused : questions, answers that came too late, answers that the guard refused.
+    switches, stops, scratch : new ways on that were flown, stops that were flown, plans from scratch among the former.
+    worst_joint : the greatest jump of a switch [m], [m/s], [m/s^2].
+    """
+
+    def __init__(self, mission: Mission, itinerary: Itinerary, sight: Sight, seed: int) -> None:
+        self.trouble = ""
+        self.asked = self.late = self.refused = self.switches = self.stops = self.scratch = 0
+        self.worst_joint = 0.0
+        self._mission, self._itinerary, self._sight, self._seed = mission, itinerary, sight, seed
+        self._hull = mission.vehicle.radius + TIGHTEST
+        self._said: list[Note] = []
+        self._period_us = PERIOD_US
+        self._requests = 0
+        self._aim: PlanWanted | None = None  # the leg that is replanned; None: none is
+        self._due_us = 0  # the next boundary
+        self._pending: int | None = None  # the question under way
+        self._answer: ReplanReady | None = None
+        self._backup: Flown | None = None  # begins at the next boundary
+        self._fresh = True
+        self._map_told = -1  # version of the map the desk has
+        self._in_a_row = 0
+        self._cold: ReplanWanted | None = None  # the plan from scratch under way
+        self._cold_answer: ReplanReady | None = None
+        self._cold_map = -1
+        self._cold_us = 0
+        self._rung = 0
+        self._stopped_us = 0
+
+    def take(self, ready: ReplanReady, flight_us: int) -> None:
+        """An answer; what was not asked for, or is too late, is dropped."""
+        if self._cold is not None and ready.request_id == self._cold.request_id:
+            self._cold_answer = ready
+        elif ready.request_id == self._pending and self._answer is None:
+            self._answer = ready
+        else:
+            self.late += self._aim is not None
+
+    def take_said(self) -> list[Note]:
+        """What people should know; each is told once."""
+        said, self._said = self._said, []
+        return said
+
+    def step(self, flight_us: int, pose: Pose) -> list[ReplanWanted]:
+        """Once a tick while FLYING: the questions to ask now."""
+        flown, aim = self._itinerary.flown(flight_us), self._itinerary.aim()
+        if flown is None or aim is None or aim.via_m:
+            self._forget()
+            return []
+        if aim is not self._aim:
+            self._forget()
+            self._aim, self._due_us = aim, flight_us
+        if flight_us < self._due_us:
+            return []
+        boundary = self._due_us
+        flown = self._decide(boundary, flown)
+        self._itinerary.follow(flight_us, flown)
+        self._due_us = boundary + self._period_us
+        if self._due_us <= flight_us:  # whole periods without a tick: they are over
+            self._due_us = flight_us + self._period_us
+            self._fresh, self._backup = True, None
+        wanted = [self._question(boundary, flown)]
+        wanted += self._from_scratch(flight_us, flown)
+        return wanted
+
+    # ---- what to fly --------------------------------------------------------------------------------------------
+
+    def _decide(self, boundary: int, flown: Flown) -> Flown:
+        """What is flown from this boundary on."""
+        answer, pending, backup = self._answer, self._pending, self._backup
+        self._answer = self._pending = self._backup = None
+        scratch = self._take_scratch(boundary, flown)
+        if scratch is not None:
+            return scratch
+        if pending is None:
+            return flown  # nothing was asked yet
+        why = ""
+        if answer is None:
+            self._in_a_row += 1
+            self._fresh = True
+            why = "no answer in time"
+            if self._in_a_row >= LATE and self._period_us < LONGEST_US:
+                self._in_a_row, self._period_us = 0, min(2 * self._period_us, LONGEST_US)
+                self._tell(Level.WARNING, f"planning takes too long: asked every {self._period_us / 1e3:.0f} ms now")
+        else:
+            self._in_a_row = 0
+            chosen = flown if answer.flown is None else answer.flown
+            if not answer.certified:
+                why = answer.reason or answer.kind
+            elif not self._passes(chosen, boundary):
+                self.refused += 1
+                why = "what is seen now is in the way of the answer"
+            elif self._joins(flown, chosen):
+                return self._taken(flown, chosen, answer)
+            else:
+                why = "the answer does not join what is flown"
+        self._fresh = True
+        return self._stop(boundary, flown, backup, why)
+
+    def _taken(self, flown: Flown, chosen: Flown, answer: ReplanReady) -> Flown:
+        self._backup = answer.backup
+        if chosen is not flown:
+            self.switches += chosen.to_goal
+            self.stops += not chosen.to_goal
+            if not chosen.to_goal and flown.to_goal:
+                self._tell(Level.WARNING, f"no way on is proved: {answer.reason}")
+        return chosen
+
+    def _stop(self, boundary: int, flown: Flown, backup: Flown | None, why: str) -> Flown:
+        """The stop kept ready, else the quickest one; what is flown already, where that is as good."""
+        if not flown.to_goal and self._clear(flown, boundary) == math.inf:
+            return flown
+        if flown.to_goal and self._cleared_for_now(flown, boundary):
+            return flown
+        found = [
+            stop for stop in (backup, self._dash(boundary, flown)) if stop is not None and self._joins(flown, stop)
+        ]
+        if not found:
+            return flown
+        stop = max(found, key=lambda stop: self._clear(stop, boundary))
+        if self._clear(stop, boundary) <= self._clear(flown, boundary) and not flown.to_goal:
+            return flown
+        self.stops += 1
+        self._tell(Level.WARNING, f"stopping: {why}")
+        return stop
+
+    def _cleared_for_now(self, flown: Flown, boundary: int) -> bool:
+        """Whether one more period may be flown without an answer: a stop after it is clear, too."""
+        later = boundary + self._period_us
+        stop = self._dash(later, flown)
+        if stop is None or self._clear(flown, boundary, later + self._period_us) < math.inf:
+            return False
+        if self._clear(stop, later) < math.inf:
+            return False
+        self._backup = stop
+        return True
+
+    def _dash(self, begin_us: int, flown: Flown) -> Flown | None:
+        """The quickest stop, straight on, from what is flown at a time."""
+        assert self._aim is not None
+        limits, s = self._aim.limits, state_at(flown, begin_us)
+        state = np.array([s.position, s.velocity, s.acceleration])
+        points, knots = dash(state, np.zeros(3), 0, np.array([limits.speed, limits.acceleration, limits.jerk]))
+        return Flown(Trajectory(points, knots), begin_us, to_goal=False) if len(points) else None
+
+    def _passes(self, chosen: Flown, boundary: int) -> bool:
+        """Whether the guard lets an answer be flown: clear for as long as the next answer and a stop take."""
+        assert self._aim is not None
+        limits = self._aim.limits
+        ahead_s = 2e-6 * self._period_us + limits.speed / limits.acceleration + limits.acceleration / limits.jerk
+        return self._clear(chosen, boundary, boundary + round(ahead_s * 1e6)) == math.inf
+
+    def _clear(self, flown: Flown, from_us: int, until_us: int | None = None) -> float:
+        until = end_us(flown) if until_us is None else until_us
+        return clear_for(flown, from_us, until, self._sight.map, self._sight.tracks.movers(), self._hull)
+
+    def _joins(self, flown: Flown, successor: Flown) -> bool:
+        if successor is flown:
+            return True
+        jump = joint(flown, successor)
+        if jump <= JOINT:
+            self.worst_joint = max(self.worst_joint, jump)
+            return True
+        return False
+
+    # ---- what to ask --------------------------------------------------------------------------------------------
+
+    def _question(self, boundary: int, flown: Flown) -> ReplanWanted:
+        assert self._aim is not None
+        self._requests += 1
+        self.asked += 1
+        self._pending = self._requests
+        view = self._sight.map.view()
+        new = view.version != self._map_told or self._fresh
+        wanted = ReplanWanted(
+            request_id=self._requests,
+            now_us=boundary,
+            switch_us=boundary + self._period_us,
+            period_us=self._period_us,
+            goal_m=self._aim.goal_m,
+            limits=self._aim.limits,
+            radius=self._radius,
+            seed=self._seed,
+            flown=flown,
+            fresh=self._fresh,
+            map=view if new else None,
+            movers=self._sight.tracks.movers(),
+        )
+        self._map_told, self._fresh = view.version, False
+        return wanted
+
+    @property
+    def _radius(self) -> float:
+        return max(LADDER[self._rung] * self._mission.seen_radius(), self._hull)
+
+    def _from_scratch(self, flight_us: int, flown: Flown) -> list[ReplanWanted]:
+        """At a stop, or on the way to one: ask for a plan from where it ends."""
+        if flown.to_goal:
+            self._stopped_us, self.trouble = 0, ""
+            self._cold = self._cold_answer = None
+            return []
+        self._stopped_us = self._stopped_us or flight_us
+        if flight_us - self._stopped_us > PATIENCE_US and not self.trouble:
+            self.trouble = "no way on is proved"
+        if self._cold is not None or flight_us < self._cold_us:
+            return []
+        self._requests += 1
+        view = self._sight.map.view()
+        rest = Flown(flown.trajectory, flown.start_us, to_goal=False)
+        self._cold = ReplanWanted(
+            request_id=self._requests,
+            now_us=flight_us,
+            switch_us=end_us(flown),
+            period_us=self._period_us,
+            goal_m=self._aim.goal_m if self._aim is not None else (0.0, 0.0, 0.0),
+            limits=self._aim.limits if self._aim is not None else self._mission.planner_limits(),
+            radius=self._radius,
+            seed=self._seed + self._requests,
+            flown=rest,
+            fresh=True,
+            map=view,
+            movers=(),
+            cold=True,
+        )
+        return [self._cold]
+
+    def _take_scratch(self, boundary: int, flown: Flown) -> Flown | None:
+        """The plan from scratch, flown from this boundary on, once the vehicle rests where it begins."""
+        answer = self._cold_answer
+        if answer is None or flown.to_goal:
+            return None
+        if answer.flown is None:
+            self._cold = self._cold_answer = None
+            self._cold_us = boundary + AGAIN_US
+            tight = self._radius <= self._hull
+            self._rung = 0 if tight or self._rung + 1 == len(LADDER) else self._rung + 1
+            self._fresh = True
+            if answer.reason != self.trouble and self.trouble:
+                self.trouble = answer.reason
+                self._tell(Level.WARNING, f"no way on: {answer.reason}")
+            return None
+        if boundary < end_us(flown):
+            return None
+        self._cold = self._cold_answer = None
+        self._cold_us = boundary + AGAIN_US
+        chosen = replace(answer.flown, start_us=boundary)
+        if not self._joins(flown, chosen) or not self._passes(chosen, boundary):
+            return None
+        self._fresh, self._backup = True, None
+        self.switches += 1
+        self.scratch += 1
+        return chosen
+
+    def _forget(self) -> None:
+        """No leg is replanned: what is under way is about nothing any more."""
+        self._aim = self._pending = self._answer = self._backup = None
+        self._cold = self._cold_answer = None
+        self._fresh, self._map_told, self._rung, self._stopped_us, self.trouble = True, -1, 0, 0, ""
+        self._cold_us = 0
+
+    def _tell(self, level: Level, text: str) -> None:
+        if len(self._said) < 8:
+            self._said.append(Note(level, text))
+
+
+__all__ = ["Replanning"]
