@@ -21,7 +21,6 @@ from fakevehicle.battery import Pack
 from fakevehicle.errors import AirframeError
 from fakevehicle.params import Parameter
 from fakevehicle.physics.ground import POINTS
-from fakevehicle.physics.ground import POINTS
 from fakevehicle.vocabulary import FloatArray
 
 BODY = np.dtype(

@@ -26,18 +26,6 @@ def points(x, anchor):
     level = 1.0 - 2.0 * (x[7] * x[7] + x[8] * x[8])
     return FEET if level > LEANING else anchor.shape[0]
 
-FEET, POINTS = 4, 8
-"""The feet come first; the points after them are the rotors' hubs."""
-LEANING = 0.9
-"""Cosine of the tilt below which the hubs are looked at."""
-
-
-@kernel
-def points(x, anchor):
-    """How many points of the vehicle may touch the ground as it stands now; as many as have an anchor at most."""
-    level = 1.0 - 2.0 * (x[7] * x[7] + x[8] * x[8])
-    return FEET if level > LEANING else anchor.shape[0]
-
 
 @kernel
 def foot_force(x, i, anchor, body):
