@@ -2,10 +2,11 @@
 
 Both messages become one `Command`; the table that the services' `commands()` make together says who carries it out and
 which parameters are understood. A handler returns a `Verdict`; every refusal gives a reason, which goes out as a
-STATUSTEXT beside the ACK. NaN in a parameter counts as not given, and so does 0 in one that is not understood; any
-other value there is DENIED, since it asks for something that would not happen. Three are taken though they change
-nothing, for what clients really send: the pitch of a takeoff (of planes only; QGroundControl sends -1), a place to take
-off or land at, as long as it is the one below the vehicle, and the version number of REQUEST_AUTOPILOT_CAPABILITIES.
+STATUSTEXT beside the ACK. NaN in a parameter counts as not given, and so does 0 in one that is not understood; in
+PX4's flavour any other value there is DENIED, since it asks for something that would not happen (in ArduPilot's own
+commands it is ignored, as ArduPilot does). Three are taken though they change nothing, for what clients really send:
+the pitch of a takeoff (of planes only; QGroundControl sends -1), a place to take off or land at, as long as it is the
+one below the vehicle, and the version number of REQUEST_AUTOPILOT_CAPABILITIES.
 
 The refusals' result codes are PX4's: TEMPORARILY_REJECTED when the vehicle's condition forbids it, DENIED when the
 parameters do, UNSUPPORTED for a command it does not have, FAILED where PX4 fails (a stream it does not know).
