@@ -16,7 +16,8 @@ import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from fakevehicle.airframe_check import AIR_DENSITY, GRAVITY, Flaw, check
+from fakevehicle.airframe_check import AIR_DENSITY, Flaw, check
+from fakevehicle.airframe_check import GRAVITY as GRAVITY  # others have it from here
 from fakevehicle.battery import Pack
 from fakevehicle.errors import AirframeError
 from fakevehicle.params import Parameter
