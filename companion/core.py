@@ -27,7 +27,9 @@ from companion.itinerary import Itinerary
 from companion.mission import Mission
 from companion.offboard import setpoint_message
 from companion.phases import OVER, STREAMING, Event, Phase, after
+from companion.replanning import Replanning as Replanned
 from companion.seam import Input, Level, Note, Order, Output, PlanReady, ReplanReady
+from companion.seeing.sight import Sight
 from companion.telemetry import Telemetry
 from companion.vehiclelink import AUTOPILOT_COMPONENT, VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
@@ -83,6 +85,9 @@ class Companion:
         self.seeing: Seeing = NothingSeen()
         self.replanning: Replanning = NothingReplanned()
         self.ground: Ground = NobodyAsks()
+        if mission.senses():
+            sight = Sight(mission)
+            self.seeing, self.replanning = sight, Replanned(mission, self.itinerary, sight, config.seed)
         self._started_us: int | None = None
         self._entered_us = 0
         self._streaming_us = 0
@@ -126,8 +131,8 @@ class Companion:
                 self._move(now_us, event, out)
             self._work(now_us, out)
         if self.phase is Phase.FLYING:
-            wanted = self.replanning.step(flight_us, self.pose(flight_us), self.seeing)
-            out.extend([] if wanted is None else [wanted])
+            out.extend(self.replanning.step(flight_us, self.pose(flight_us)))
+            out.extend(self.replanning.take_said())
         self._stream(now_us, out)
         return out
 
@@ -147,9 +152,9 @@ class Companion:
         match item:
             case Datagram(link=link, data=data) if link == VEHICLE_LINK:
                 for packet, obeyed in self.link.packets(now_us, item):
-                    self.seeing.take(now_us, packet, self.pose(now_us))
                     if obeyed:
                         self.telemetry.take(now_us, packet, self.link.decoder)
+                    self.seeing.take(now_us, packet, self.pose(now_us))
                 if self.link.impostor:
                     out.append(Note(Level.WARNING, self.link.impostor))
                     self.link.impostor = ""
@@ -355,6 +360,7 @@ class Companion:
             case Phase.PLANNING:
                 self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
                 self.itinerary.yaw = self.telemetry.yaw
+                self.seeing.begin()
                 self._streaming_us = now_us
                 out.extend(Note(Level.WARNING, text) for text in self.autopilot.warnings(self.telemetry))
                 self._plan_refusal = self.itinerary.obstruction()

@@ -12,7 +12,6 @@ from companion.seam import FloatArray, Note, Order, ReplanReady, ReplanWanted
 from wire.datagram import Datagram
 from wire.framing import Packet
 
-
 Obey = Callable[[Order], str]
 """Carries out an order: why it cannot be done, or nothing."""
 
