@@ -58,6 +58,10 @@ def test_parameters_by_name_and_all_at_once() -> None:
             await asyncio.wait_for(param.get_param_float("NO_SUCH_NAME"), 3)
         with pytest.raises(ParamError):
             await asyncio.wait_for(param.set_param_float("MPC_LAND_SPEED", 1e6), 3)
+        await system.action.reboot()  # what was set outlives it
+        assert await param.get_param_float("MPC_LAND_SPEED") == pytest.approx(0.9)
+        with pytest.raises(ActionError):
+            await system.action.shutdown()
 
     fly(story)
 
@@ -65,7 +69,7 @@ def test_parameters_by_name_and_all_at_once() -> None:
 def test_files_are_listed_fetched_and_compared(tmp_path: Path) -> None:
     async def story(system: Any, _vehicle: VehicleProcess) -> None:
         ftp = system.ftp
-        assert await listed(system, "/") == ["@PARAM", "etc", "log"]
+        assert await listed(system, "/") == ["@PARAM", "etc", "fs", "log"]
         for burst in (False, True):
             folder = tmp_path / str(burst)
             folder.mkdir()

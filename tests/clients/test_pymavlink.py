@@ -87,7 +87,7 @@ def test_mavftp_lists_reads_and_checks(connection: Any) -> None:
     for setting in (["read_retry_time", "0.2"], ["idle_detection_time", "0.4"]):  # it sits a refusal out that long
         assert ftp.cmd_set(setting).error_code == 0
     found = {entry.name: entry.is_dir for entry in ftp.cmd_list(["/"]).directory_listing}
-    assert found == {"@PARAM": True, "etc": True, "log": True}
+    assert found == {"@PARAM": True, "etc": True, "fs": True, "log": True}
     (recording,) = ftp.cmd_list(["/log"]).directory_listing
     assert recording.size_b > 0
     assert recording.name.endswith(".mcap")
