@@ -28,6 +28,8 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
         "COM_LOW_BAT_ACT", 0, 0, 3, "", "Critical charge: 0 a warning, 2 land, 3 return, land in an emergency", _I
     ),
+    Parameter("CBRK_FLIGHTTERM", 121212, 0, 121212, "", "Fallen over in flight: 0 motors off, 121212 a warning", _I),
+    Parameter("COM_LKDOWN_TKO", 3.0, -1.0, 5.0, "s", "Fallen over this long after takeoff, or before: motors off"),
     Parameter("GF_ACTION", 2, 0, 5, "", "Fence: 0 nothing, 1 a warning, 2 hold, 3 return, 4 motors off, 5 land", _I),
 )
 
@@ -42,6 +44,8 @@ class Trigger(Enum):
     BATTERY_EMERGENCY = "battery nearly empty"
     POSITION_LOST = "position lost"
     FENCE_BREACHED = "fence breached"
+    FALLEN = "attitude failure"
+    FALLEN_AT_TAKEOFF = "attitude failure at takeoff"
     MISSION_UNFIT = "mission not possible"
 
 
@@ -80,6 +84,8 @@ RULES: Mapping[Trigger, Rule] = {
     Trigger.BATTERY_CRITICAL: Rule("COM_LOW_BAT_ACT", {0: _W, 2: _L, 3: _R}),
     Trigger.BATTERY_EMERGENCY: Rule("COM_LOW_BAT_ACT", {0: _W, 2: _L, 3: _L}),
     Trigger.POSITION_LOST: Rule("", {0: _L}),
+    Trigger.FALLEN: Rule("CBRK_FLIGHTTERM", {0: _M, 121212: _W}),
+    Trigger.FALLEN_AT_TAKEOFF: Rule("", {0: _M}),
     Trigger.FENCE_BREACHED: Rule("GF_ACTION", {1: _W, 2: _H, 3: _R, 4: _M, 5: _L}),
     Trigger.MISSION_UNFIT: Rule("", {0: _H}),
 }

@@ -113,6 +113,7 @@ class Refusal(Enum):
     NOT_ARMABLE_MODE = "ask for Hold first"
     BATTERY_LOW = "battery too low"
     OUTSIDE_FENCE = "outside the fence"
+    LEANING = "leaning too far"
     MISSION_TOO_FAR = "a place of the mission is too far away"
     BELOW = "that altitude is below the vehicle"
 
@@ -172,6 +173,7 @@ class Conditions:
     mission_loaded: bool = False
     battery_good: bool = True
     fence_kept: bool = True
+    upright: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,6 +196,7 @@ _LANDED = Guard(lambda c: not (c.armed and c.airborne), Refusal.NOT_LANDED)
 _MISSION = Guard(lambda c: c.mission_loaded, Refusal.NO_MISSION)
 _MISSION_IN_MISSION = Guard(lambda c: c.mission_loaded or c.mode is not Mode.MISSION, Refusal.NO_MISSION)
 _BATTERY = Guard(lambda c: c.battery_good, Refusal.BATTERY_LOW)
+_UPRIGHT = Guard(lambda c: c.upright, Refusal.LEANING)
 _FENCE = Guard(lambda c: c.fence_kept, Refusal.OUTSIDE_FENCE)
 
 GUARDS: Mapping[Event, tuple[Guard, ...]] = {
@@ -211,6 +214,7 @@ GUARDS: Mapping[Event, tuple[Guard, ...]] = {
     Event.ASK_GOTO: (_FLYING, _POSITION),
     Event.ASK_ARM: (
         _ATTITUDE,
+        _UPRIGHT,
         _VELOCITY,
         _POSITION,
         _ALTITUDE,

@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fakevehicle import course, failsafes, fence, mission_check, mission_runner, navigator, setpoint_stream
+from fakevehicle import course, failsafes, fence, flip, mission_check, mission_runner, navigator, setpoint_stream
 from fakevehicle.failsafes import EVENTS, Action, Failsafes, Trigger, Tripped, battery_triggers
 from fakevehicle.fence import FenceMonitor
+from fakevehicle.flip import FlipDetector
 from fakevehicle.landing import LandDetector
 from fakevehicle.mission_check import MissionCheck
 from fakevehicle.mission_runner import MissionRunner
@@ -36,6 +37,7 @@ PARAMETERS: tuple[Parameter, ...] = (
     *mission_runner.PARAMETERS,
     *fence.PARAMETERS,
     *failsafes.PARAMETERS,
+    *flip.PARAMETERS,
     *setpoint_stream.PARAMETERS,
     Parameter("COM_DISARM_LAND", 2.0, -1.0, 20.0, "s", "Disarm this long after a landing; not above 0: never"),
     Parameter("COM_DISARM_PRFLT", 10.0, -1.0, 60.0, "s", "Disarm when nobody takes off; not above 0: never"),
@@ -93,6 +95,7 @@ class Supervisor:
         self.remaining = 1.0
         self._glance: Glance | None = None
         self._ground = LandDetector(hover)
+        self._flip = FlipDetector(parameters)
         self._flown = False  # since it was armed
         self._changed_us = 0  # when it was armed or last stood down
         self._stream = SetpointStream(parameters, hover)
@@ -157,6 +160,7 @@ class Supervisor:
             mission_loaded=bool(self._store.mission),
             battery_good=self.battery_good,
             fence_kept=self.fence.breach is None,
+            upright=not self._flip.fallen,
         )
 
     def setpoints_fresh(self, now_us: int) -> bool:
@@ -292,6 +296,7 @@ class Supervisor:
         self._glance = glance
         if self.home is None and glance.position_valid and glance.altitude_valid:
             self._take_home(glance)
+        self._flip.step(now_us, glance)
         was_airborne = self.airborne
         self._ground.step(now_us, glance, self.armed, self._sinking(glance))
         if self.airborne is not was_airborne:
@@ -344,6 +349,10 @@ class Supervisor:
         triggers = list(battery_triggers(self.remaining, self._parameters))
         if not self.armed:
             return triggers
+        if self._flip.fallen:
+            flown_s = (now_us - self._changed_us) * 1e-6 if self.airborne else 0.0
+            leaving = flown_s <= self._parameters["COM_LKDOWN_TKO"]
+            triggers.append(Trigger.FALLEN_AT_TAKEOFF if leaving else Trigger.FALLEN)
         offboard = self.mode is Mode.OFFBOARD or self._stream_lost
         if offboard and not self.setpoints_fresh(now_us):
             triggers.append(Trigger.STREAM_LOST)

@@ -60,5 +60,6 @@ ARMING_WORDS = {
     Refusal.NO_HOME: "AHRS: waiting for home",
     Refusal.BATTERY_LOW: "Battery 1 below minimum arming capacity",
     Refusal.OUTSIDE_FENCE: "Vehicle breaching Fence",
+    Refusal.LEANING: "Leaning",
 }
 """ArduPilot's words for what keeps it from arming; others are put as everywhere."""
