@@ -673,7 +673,7 @@ def test_logs_and_shell_are_answered_with_none_and_files_are_listed(pilot: Pilot
     reply = bytes(pilot.last("FILE_TRANSFER_PROTOCOL").payload)
     sequence, _, opcode, size, asked, _, _, _ = struct.unpack_from("<HBBBBBBI", reply)
     assert (sequence, opcode, asked) == (42, 128, 3)
-    assert reply[12 : 12 + size] == b"D@PARAM\0Detc\0Dlog\0"
+    assert reply[12 : 12 + size] == b"D@PARAM\0Detc\0Dfs\0Dlog\0"
 
 
 # Who is obeyed
