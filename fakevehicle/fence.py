@@ -75,6 +75,11 @@ class FenceMonitor:
         p = self._parameters
         return bool(self._store.fence) or p["GF_MAX_HOR_DIST"] > 0.0 or p["GF_MAX_VER_DIST"] > 0.0
 
+    @property
+    def holding(self) -> bool:
+        """Whether it keeps anybody in: with GF_ACTION 0 or 1 it is told of at most, and nothing is refused for it."""
+        return self.enabled and self._parameters["GF_ACTION"] > 1
+
     def step(self, now_us: int, position_n: FloatArray, home_n: FloatArray) -> Breach | None:
         """Look at the vehicle's own position, (3,) [m], and count what begins."""
         breach = self.breach_at(position_n, home_n)

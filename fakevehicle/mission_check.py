@@ -1,7 +1,8 @@
 """Can the mission that is loaded be flown from this home? Looked at as a whole, before it begins and while it is flown.
 
-Every place of it has to be where the fence lets the vehicle be and within `FARTHEST_PLACE` of home, and the first one
-after the takeoff within MIS_DIST_1WP: a plan made for another field is the usual reason for one that is not.
+Every place of it has to be where the fence, if it holds anybody, lets the vehicle be, and within `FARTHEST_PLACE` of
+home, and the first one after the takeoff within MIS_DIST_1WP: a plan made for another field is the usual reason for one
+that is not.
 """
 
 import math
@@ -40,7 +41,7 @@ class MissionCheck:
         `home_n`, (3,) local NED [m], is what heights and distances count from, and what an item leaves open.
         """
         p, fence = self._parameters, self._fence
-        key = (self._store.version, fence.enabled, *(p[name] for name in LIMITS), *home_n.tolist())
+        key = (self._store.version, fence.holding, *(p[name] for name in LIMITS), *home_n.tolist())
         if key != self._key:
             self._key, self._refusal = key, self._judged(home_n)
         return self._refusal
@@ -52,7 +53,7 @@ class MissionCheck:
             points = extent_of(item, self._places, home_n)
             if any(math.dist(point[:2], home_n[:2]) > limit for point in points):
                 return Refusal.MISSION_TOO_FAR
-            if any(self._fence.breach_at(point, home_n) is not None for point in points):
+            if self._fence.holding and any(self._fence.breach_at(point, home_n) is not None for point in points):
                 return Refusal.OUTSIDE_FENCE
             if item.has_place and item.command != mavlink.MAV_CMD_NAV_TAKEOFF and points:
                 limit = FARTHEST_PLACE

@@ -259,7 +259,9 @@ class Supervisor:
     def _leaves(self, points: list[FloatArray]) -> bool:
         """Whether the fence keeps from one of some points, (3,) [m] each."""
         home = self.home
-        return home is not None and any(self.fence.breach_at(n, home.position_n) is not None for n in points)
+        if home is None or not self.fence.holding:
+            return False
+        return any(self.fence.breach_at(n, home.position_n) is not None for n in points)
 
     def ask_speed(self, speed: float | None) -> None:
         """Fly automatic modes at another speed over ground [m/s] until the mode changes; None: MPC_XY_CRUISE again."""

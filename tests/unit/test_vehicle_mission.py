@@ -738,6 +738,17 @@ def test_a_mission_in_flight_is_held_once_the_fence_is_too_narrow_for_it(pilot: 
     assert pilot.mode == HOLD
 
 
+def test_a_fence_that_only_warns_holds_no_mission_and_refuses_no_goto(pilot: Pilot) -> None:
+    pilot.vehicle.parameters.set("GF_ACTION", 1)
+    assert upload(pilot, square_fence(5.0), 1) == upload(pilot, SQUARE) == 0
+    assert pilot.command(300, 0, 0) == ACCEPTED
+    pilot.until(lambda: "Fence breached" in pilot.texts(), 30)
+    assert pilot.mode == MISSION
+    pilot.send(m.MAVLink_mission_item_message(1, 1, 0, 3, 16, 2, 1, 0, 0, 0, 0, LATITUDE + 20 * NORTH, LONGITUDE, 5.0))
+    pilot.tick()
+    assert pilot.last("MISSION_ACK").type == m.MAV_MISSION_ACCEPTED
+
+
 def test_a_mission_that_does_not_fit_cannot_be_armed_for(pilot: Pilot) -> None:
     assert upload(pilot, SQUARE) == 0
     assert pilot.command(176, 1, 4, 4) == ACCEPTED
