@@ -1,9 +1,12 @@
 """One COMMAND_LONG at a time: sent, repeated until it is answered, and given up after a while.
 
 UDP loses datagrams and autopilots are sometimes busy, so a command is sent again each 0.5 s with `confirmation` counted
-up, as the MAVLink command protocol asks; IN_PROGRESS and TEMPORARILY_REJECTED keep it alive.
+up, as the MAVLink command protocol asks; IN_PROGRESS and TEMPORARILY_REJECTED keep it alive. An acknowledgement names
+nothing but the command, so one that is addressed to somebody else is not ours, and no two of a kind are under way.
+A parameter is written likewise, and its echo is the answer.
 """
 
+import struct
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -38,6 +41,7 @@ class Command:
     outcome: Outcome = Outcome.PENDING
     result: int | None = None  # MAV_RESULT of the last answer
     sent: int = 0
+    answered_us: int = 0  # when it was accepted
     _next_us: int = field(default=0)
 
     def due(self, now_us: int) -> bool:
@@ -51,13 +55,13 @@ class Command:
         self._next_us = now_us + REPEAT_US
         return True
 
-    def answered(self, ack: Ack) -> None:
-        """Take an acknowledgement; one for another command changes nothing."""
-        if ack.command != self.command or self.outcome is not Outcome.PENDING:
+    def answered(self, ack: Ack, now_us: int = 0) -> None:
+        """Take an acknowledgement; one for another command, or from before it was sent, changes nothing."""
+        if ack.command != self.command or self.outcome is not Outcome.PENDING or self.sent == 0:
             return
         self.result = ack.result
         if ack.result == mavlink.MAV_RESULT_ACCEPTED:
-            self.outcome = Outcome.ACCEPTED
+            self.outcome, self.answered_us = Outcome.ACCEPTED, now_us
         elif ack.result not in (mavlink.MAV_RESULT_IN_PROGRESS, mavlink.MAV_RESULT_TEMPORARILY_REJECTED):
             self.outcome = Outcome.REFUSED
 
@@ -72,6 +76,52 @@ class Command:
             last = "" if self.result is None else f" (last answer {_result_name(self.result)})"
             return f"no acceptance of '{self.what}' after {self.sent} tries{last}"
         return f"the vehicle refused to {self.what}: {_result_name(self.result or 0)}"
+
+
+def is_for(ack: Ack, system_id: int, component_id: int) -> bool:
+    """Whether an acknowledgement is for us; older senders leave the target 0, everybody."""
+    return ack.target_system in (0, system_id) and ack.target_component in (0, component_id)
+
+
+@dataclass(slots=True)
+class ParameterWrite:
+    """A PARAM_SET on its way; done when the vehicle tells the value that was written.
+
+    Attributes
+    ----------
+    name, value, kind : as PARAM_SET has them; the value as its float field carries it.
+    shown : the value, for people.
+    """
+
+    name: str
+    value: float
+    kind: int
+    shown: str
+    outcome: Outcome = Outcome.PENDING
+    sent: int = 0
+    _next_us: int = field(default=0)
+
+    def due(self, now_us: int) -> bool:
+        """Whether it should be sent now; counts the tries and gives up after `TRIES`."""
+        if self.outcome is not Outcome.PENDING or now_us < self._next_us:
+            return False
+        if self.sent >= TRIES:
+            self.outcome = Outcome.UNANSWERED
+            return False
+        self.sent += 1
+        self._next_us = now_us + REPEAT_US
+        return True
+
+    def echoed(self, raw: bytes) -> None:
+        """Take what the vehicle says the parameter is: the four bytes of param_value."""
+        if self.sent and raw == struct.pack("<f", self.value):
+            self.outcome = Outcome.ACCEPTED
+
+    def message(self, target_system: int) -> mavlink.MAVLink_param_set_message:
+        return mavlink.MAVLink_param_set_message(target_system, 1, self.name.encode(), self.value, self.kind)
+
+    def failure(self) -> str:
+        return f"{self.name} was not set to {self.shown}: no echo after {self.sent} tries"
 
 
 def _result_name(result: int) -> str:

@@ -1,11 +1,15 @@
 """The companion as a step machine: `Companion.step(now_us, inputs) -> outputs`.
 
 One tick, in this order:
-1. take the inputs: telemetry from the vehicle, plans, the operator; forward what ground stations and vehicle say to
-   each other;
-2. look at what happened and move to the next phase at most once (`phases.py` is the table);
-3. do the phase's work: ask, wait, or walk the mission's steps;
-4. stream: HEARTBEAT at 1 Hz, a setpoint every tick from PLANNING on.
+1. read the flight's clock, which runs at the vehicle's pace;
+2. take the inputs: telemetry and sensors from the vehicle, plans, ground stations, the operator; look at what was seen;
+3. look at what happened and move to the next phase at most once (`phases.py` is the table; in the air `safety.py` says
+   what counts as trouble and what it leads to);
+4. do the phase's work: ask, wait, or walk the mission's steps; ask for another plan;
+5. stream: HEARTBEAT at 1 Hz, and in the phases and on the autopilots that want them a setpoint every tick.
+
+Two clocks: `now_us` is the driver's, for silence, repeats and HEARTBEAT; `flight_us` is the vehicle's, for everything
+that is flown. In lockstep they are the same.
 
 No clock, no socket, no randomness, no logging: the same inputs at the same `now_us` give the same outputs, which makes
 a recording a table and a re-run a loop. Nothing a peer sends raises; it becomes a counter, a note or nothing. One file
@@ -19,32 +23,40 @@ from typing import Any
 
 import numpy as np
 
+from companion.autopilots import AUTOPILOTS
 from companion.autopilots.base import Autopilot
 from companion.autopilots.px4 import Px4
-from companion.commands import Command, Outcome
+from companion.commands import Command, Outcome, ParameterWrite, is_for
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
 from companion.mission import Mission
 from companion.offboard import setpoint_message
-from companion.phases import OVER, STREAMING, Event, Phase, after
+from companion.phases import AIRBORNE, OVER, STREAMING, Event, Phase, after
+from companion.rejoin import Rejoin
 from companion.replanning import Replanning as Replanned
-from companion.seam import Input, Level, Note, Order, Output, PlanReady, ReplanReady
+from companion.safety import Action, Safety, Watch
+from companion.seam import Input, Level, Note, Order, Output, PlanReady, Reference, ReplanReady
 from companion.seeing.sight import Sight
 from companion.telemetry import Telemetry
-from companion.vehiclelink import AUTOPILOT_COMPONENT, VEHICLE_LINK, VehicleLink
+from companion.vehicleclock import VehicleClock
+from companion.vehiclelink import AUTOPILOT_COMPONENT, COMPONENT_ID, VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
 HEARTBEAT_US = 1_000_000
 VEHICLE_SILENT_US = 3_000_000
-POSITION_SILENT_US = 1_000_000
-ASTRAY_M, ASTRAY_US = 2.0, 1_000_000
-"""Farther than this from the reference for this long, and the flight lands: no plan vouches for such a place."""
 BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGING, Phase.ARMING)
 """Phases in which giving up costs nothing."""
-PARAMETER_WAIT_US = 2_000_000
+PARAMETER_WAIT_US, PARAMETER_REPEAT_US = 2_000_000, 500_000
+STREAMS_AGAIN_US = 5_000_000
+"""Without a position for so long while it is being prepared, the vehicle is asked for its streams again."""
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
+CONFIRM_US = 2_000_000
+"""An accepted command whose effect does not show after this is given again; PX4's HEARTBEAT is up to 1 s late."""
+CONFIRM_TRIES = 5
+TEXT_FRESH_US = 3_000_000
+"""A warning of the vehicle's that is no older belongs to the mode it took."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +79,8 @@ class Companion:
     ----------
     phase : where the flight is (`phases.Phase`).
     failure : why it is FAILED or HANDED_OVER, in one line; empty otherwise.
-    link, telemetry, itinerary : for progress lines; read only.
+    link, telemetry, itinerary, clock, autopilot : for progress lines; read only.
+    seeing, replanning, ground : plugged in by whoever builds the companion (`hooks`).
     """
 
     TICK_US = 20_000  # 50 Hz
@@ -82,6 +95,9 @@ class Companion:
         self.autopilot: Autopilot = Px4()
         self.origin_n = np.zeros(3)  # the mission frame's origin in the vehicle's local frame, fixed on the ground
         self.link = VehicleLink(config.system_id, config.speaks_first)
+        self.clock = VehicleClock()
+        self.safety = Safety()
+        self.rejoin = Rejoin(mission, config.seed)
         self.seeing: Seeing = NothingSeen()
         self.replanning: Replanning = NothingReplanned()
         self.ground: Ground = NobodyAsks()
@@ -89,17 +105,28 @@ class Companion:
             sight = Sight(mission)
             self.seeing, self.replanning = sight, Replanned(mission, self.itinerary, sight, config.seed)
         self._started_us: int | None = None
+        self._last_us: int | None = None  # of the tick before
+        self._flight_us = 0
         self._entered_us = 0
         self._streaming_us = 0
-        self._on_track_us = 0
         self._heartbeat_due_us = 0
-        self._command: Command | None = None
-        self._queue: list[Command] = []
+        self._parameters_due_us = 0
+        self._streams_due_us = 0
+        self._parameters_judged = False
+        self._boots = 1
+        self._tries = 0
+        self._command: Command | ParameterWrite | None = None
+        self._queue: list[Command | ParameterWrite] = []
         self._land_asked = False
+        self._given_back = False
         self._plan_refusal = ""
-        self._was_landing = False
+        self._came_down = False
+        self._going_home = False
         self._withheld = False
+        self._holding = ""
         self._readiness: tuple[str, ...] = ()
+        self._warned: tuple[int, str] | None = None  # when, what: the vehicle's last warning
+        self._reference: Reference | None = None  # of the tick before
 
     # ---- one tick -----------------------------------------------------------------------------------------------
 
@@ -113,19 +140,19 @@ class Companion:
 
         Returns
         -------
-        Datagrams to send, plans wanted, the reference flown (in STREAMING phases), and notes, in order.
+        Datagrams to send, plans wanted, the reference flown (where a setpoint leaves), and notes, in order.
         """
         if self._started_us is None:
-            self._started_us = self._entered_us = self._heartbeat_due_us = now_us
+            self._started_us = self._entered_us = self._heartbeat_due_us = self._last_us = now_us
         out: list[Output] = []
+        self._flight_us = flight_us = self.clock.at(now_us, slowly=self.phase in AIRBORNE)
         for item in inputs:
             self._take(now_us, item, out)
-        flight_us = now_us
         out.extend(self.ground.step(now_us))
         self.seeing.step(flight_us)
-        self._report_texts(out)
+        self._report_texts(now_us, out)
         if self.phase not in OVER:
-            self._answer_command()
+            self._answer_command(now_us)
             event = self._event(now_us, out)
             if event is not None:
                 self._move(now_us, event, out)
@@ -134,6 +161,7 @@ class Companion:
             out.extend(self.replanning.step(flight_us, self.pose(flight_us)))
             out.extend(self.replanning.take_said())
         self._stream(now_us, out)
+        self._last_us = now_us
         return out
 
     @property
@@ -146,15 +174,15 @@ class Companion:
         t = self.telemetry
         return Pose(flight_us, t.position_n - self.origin_n, t.velocity_n, t.roll, t.pitch, t.yaw)
 
-    # ---- 1. inputs ----------------------------------------------------------------------------------------------
+    # ---- 2. inputs ----------------------------------------------------------------------------------------------
 
     def _take(self, now_us: int, item: Input, out: list[Output]) -> None:
         match item:
             case Datagram(link=link, data=data) if link == VEHICLE_LINK:
                 for packet, obeyed in self.link.packets(now_us, item):
                     if obeyed:
-                        self.telemetry.take(now_us, packet, self.link.decoder)
-                    self.seeing.take(now_us, packet, self.pose(now_us))
+                        self._hear(now_us, packet)
+                    self.seeing.take(now_us, packet, self.pose(self._flight_us))
                 if self.link.impostor:
                     out.append(Note(Level.WARNING, self.link.impostor))
                     self.link.impostor = ""
@@ -164,26 +192,38 @@ class Companion:
                 if self.link.may_speak:
                     out.append(Datagram(VEHICLE_LINK, data, self.link.peer))
             case ReplanReady():
-                self.replanning.take(item, now_us)
+                self.replanning.take(item, self._flight_us)
             case PlanReady():
-                self._take_plan(now_us, item, out)
+                self._take_plan(item, out)
             case Order():
                 reason = self.obey(now_us, item)
                 by = f" ({item.source})" if item.source else ""
                 told = Note(Level.WARNING, f"{item.name}{by}: {reason}") if reason else Note(Level.INFO, item.name + by)
                 out.extend([told] if reason or item.name != "land" else [])
 
+    def _hear(self, now_us: int, packet: Any) -> None:
+        """One packet of the autopilot's."""
+        boots, stamp = self.telemetry.boots, self.telemetry.boot_ms
+        self.telemetry.take(now_us, packet, self.link.decoder)
+        if self.telemetry.boots != boots:
+            self.clock.forget()
+        elif self.telemetry.boot_ms is not None and self.telemetry.boot_ms != stamp:
+            self.clock.heard(now_us, self.telemetry.boot_ms)
+
     def obey(self, now_us: int, order: Order) -> str:
         """Carry out an order: why it cannot be done, or nothing."""
         if order.name == "land" or (order.name == "abort" and self.phase in BEFORE_FLIGHT):
             self._land_asked = True
             return ""
+        if order.name == "resume" and self.phase is Phase.HANDED_OVER:
+            self._given_back = True
+            return ""
         if self.phase is not Phase.FLYING:
             return f"not while {self.phase.value}"
-        return self.itinerary.order(now_us, order)
+        return self.itinerary.order(self._flight_us, order)
 
-    def _take_plan(self, now_us: int, ready: PlanReady, out: list[Output]) -> None:
-        if self.itinerary.answer(now_us, ready):
+    def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
+        if self.rejoin.take(ready) or self.itinerary.answer(self._flight_us, ready):
             return
         if self.phase is not Phase.PLANNING or not self.itinerary.wants(ready.request_id):
             return  # an answer to nothing that was asked
@@ -198,37 +238,116 @@ class Companion:
         text = f"{leg} planned: {ready.length:.2f} m in {duration:.2f} s, {spare} ({how})"
         out.append(Note(Level.INFO, text))
 
-    def _report_texts(self, out: list[Output]) -> None:
+    def _report_texts(self, now_us: int, out: list[Output]) -> None:
         for severity, text in self.telemetry.texts:
             level = Level.ERROR if severity <= 3 else Level.WARNING if severity == 4 else Level.INFO
             out.append(Note(level, f"vehicle: {text}"))
+            if severity <= mavlink.MAV_SEVERITY_NOTICE:
+                self._warned = (now_us, text)
         self.telemetry.texts.clear()
 
-    def _answer_command(self) -> None:
+    def _answer_command(self, now_us: int) -> None:
         for ack in self.telemetry.acks:
-            if self._command is not None:
-                self._command.answered(ack)
+            if isinstance(self._command, Command) and is_for(ack, self.link.target, COMPONENT_ID):
+                self._command.answered(ack, now_us)
         self.telemetry.acks.clear()
+        if isinstance(self._command, ParameterWrite):
+            self._command.echoed(self.telemetry.parameters.get(self._command.name, b""))
 
-    # ---- 2. what happened ---------------------------------------------------------------------------------------
+    # ---- 3. what happened ---------------------------------------------------------------------------------------
 
     def _event(self, now_us: int, out: list[Output]) -> Event | None:
         """The one event of this tick, most urgent first."""
-        if self.link.heard_us is not None and now_us - self.link.heard_us > VEHICLE_SILENT_US:
-            self._blame(f"nothing heard from the vehicle for {(now_us - self.link.heard_us) / 1e6:.1f} s")
-            return Event.VEHICLE_SILENT
+        if self.phase in AIRBORNE or self.phase is Phase.HANDED_OVER:
+            acting = self.safety.step(now_us, self._watch(now_us))
+            if acting is not None:
+                rule, reason = acting
+                if rule.name == "landed":
+                    return rule.event
+                if rule.action in (Action.FAIL, Action.HAND_OVER, Action.LAND, Action.RETURN):
+                    self._blame(reason)
+                level = Level.ERROR if rule.action in (Action.FAIL, Action.HAND_OVER, Action.LAND) else Level.WARNING
+                out.append(Note(level, f"{reason} ({rule.action.value})"))
+                self._going_home = rule.action is Action.RETURN
+                return rule.event
+        elif self.phase is not Phase.CONNECTING:
+            event = self._lost_on_the_ground(now_us, out)
+            if event is not None:
+                return event
         if self._land_asked and self.phase is not Phase.LANDING:
             self._land_asked = False
             self._blame("cancelled by the operator")
-            if self.phase is Phase.FLYING:
+            if self.phase in AIRBORNE:
                 out.append(Note(Level.WARNING, "the operator asks to land; asking again stops without landing"))
             return Event.LAND_ASKED
         return WATCH[self.phase](self, now_us, out)
 
+    def _lost_on_the_ground(self, now_us: int, out: list[Output]) -> Event | None:
+        """Nothing has left the ground: a vehicle that is gone, or has booted again, is waited for."""
+        if self.link.heard_us is not None and now_us - self.link.heard_us > VEHICLE_SILENT_US:
+            silence = f"nothing heard from the vehicle for {(now_us - self.link.heard_us) / 1e6:.1f} s"
+            if self.phase is Phase.ARMING:
+                self._blame(silence)
+            else:
+                out.append(Note(Level.WARNING, f"{silence}: waiting for it"))
+            return Event.VEHICLE_SILENT
+        booted = self.telemetry.boots != self._boots
+        if booted or (self.phase is not Phase.PREPARING and self.autopilot.booting(self.telemetry)):
+            out.append(Note(Level.WARNING, "the vehicle booted again"))
+            return Event.REBOOTED
+        return None
+
+    def _watch(self, now_us: int) -> Watch:
+        """What the safety table looks at."""
+        t, autopilot, came_down = self.telemetry, self.autopilot, self._came_down
+        on_ground = t.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
+        booting = autopilot.booting(t) and not t.armed and not on_ground
+        comes_down = autopilot.comes_down(t)
+        self._came_down = self.phase is Phase.LANDING and comes_down
+        error = 0.0
+        if self._reference is not None:
+            error = float(np.linalg.norm(t.position_n - self.origin_n - self._reference.position_m))
+        text = ""
+        if self._warned is not None and now_us - self._warned[0] <= TEXT_FRESH_US:
+            text = f" ({self._warned[1]})"
+        return Watch(
+            phase=self.phase,
+            phase_s=(now_us - self._entered_us) / 1e6,
+            silent_s=(now_us - (self.link.heard_us or 0)) / 1e6,
+            position_s=(now_us - (t.position_us or 0)) / 1e6,
+            tick_gap_s=(now_us - (self._last_us or now_us)) / 1e6,
+            rebooted=t.boots != self._boots or booting,
+            disarmed=not t.armed and (t.armed_reports >= 2 or on_ground),
+            in_control=autopilot.in_control(t),
+            mode_reports=t.mode_reports,
+            mode=autopilot.mode_name(t),
+            last_text=text,
+            stream_lost=autopilot.lost_our_stream(t),
+            failsafe=autopilot.failsafe(t),
+            comes_down=comes_down,
+            came_down=came_down,
+            on_ground=on_ground,
+            mode_asked=self.phase in (Phase.REJOINING, Phase.LANDING) and self._command is not None and self._asking,
+            estimator=autopilot.estimator_lost(t),
+            rejected=tuple(t.rejected),
+            error_m=error,
+            battery=t.battery,
+            no_way=self.replanning.trouble,
+        )
+
+    @property
+    def _asking(self) -> bool:
+        """Whether the command under way may still change what the vehicle does."""
+        command = self._command
+        return command is not None and command.outcome in (Outcome.PENDING, Outcome.ACCEPTED)
+
     def _connecting(self, now_us: int, out: list[Output]) -> Event | None:
         if self.telemetry.heartbeat_us is not None:
-            if self.telemetry.autopilot != mavlink.MAV_AUTOPILOT_PX4:
-                return self._refused(f"autopilot type {self.telemetry.autopilot} found, expected PX4 (12)")
+            autopilot = AUTOPILOTS.get(self.telemetry.autopilot)
+            if autopilot is None:
+                known = " or ".join(f"{a.name} ({number})" for number, a in AUTOPILOTS.items())
+                return self._refused(f"autopilot type {self.telemetry.autopilot} found, expected {known}")
+            self.autopilot = autopilot
             return Event.VEHICLE_HEARD
         if now_us - self._entered_us > self.config.wait_vehicle_s * 1e6:
             return self._refused(f"no HEARTBEAT from a vehicle in {self.config.wait_vehicle_s:g} s")
@@ -236,11 +355,20 @@ class Companion:
 
     def _preparing(self, now_us: int, out: list[Output]) -> Event | None:
         waited_us = now_us - self._entered_us
-        if self._command is not None and self._command.outcome is not Outcome.PENDING:
-            if self._command.outcome is not Outcome.ACCEPTED:
-                out.append(Note(Level.WARNING, self._command.failure()))
+        command = self._command
+        if command is not None and command.outcome is not Outcome.PENDING:
+            if command.outcome is not Outcome.ACCEPTED:
+                out.append(Note(Level.WARNING, command.failure()))
+            elif isinstance(command, ParameterWrite):
+                out.append(Note(Level.INFO, f"{command.name} set to {command.shown}"))
             self._command = None
         unread = any(not raw for raw in self.telemetry.parameters.values()) and waited_us < PARAMETER_WAIT_US
+        if unread and now_us >= self._parameters_due_us:
+            self._read_parameters(now_us, out)
+        if not unread and not self._parameters_judged:
+            self._parameters_judged = True
+            for wish in self.autopilot.parameters_to_set(self.telemetry):
+                self._queue.append(ParameterWrite(wish.name, wish.value, wish.kind, wish.shown))
         reasons = tuple(self.autopilot.not_ready(now_us, self.telemetry))
         if reasons != self._readiness:
             self._readiness = reasons
@@ -249,6 +377,10 @@ class Companion:
             return Event.READY
         if waited_us > self.config.wait_ready_s * 1e6:
             return self._refused(f"the vehicle is not ready after {waited_us / 1e6:.0f} s: {', '.join(reasons)}")
+        if now_us >= self._streams_due_us and not self._queue and self._command is None:
+            self._streams_due_us = now_us + STREAMS_AGAIN_US
+            if now_us - (self.telemetry.position_us or 0) > STREAMS_AGAIN_US:
+                self._queue.extend(self.autopilot.stream_requests())
         return None
 
     def _planning(self, now_us: int, out: list[Output]) -> Event | None:
@@ -261,64 +393,75 @@ class Companion:
         return None
 
     def _engaging(self, now_us: int, out: list[Output]) -> Event | None:
-        if self._command_failed():
-            return Event.REFUSED
-        return Event.MODE_CONFIRMED if self.autopilot.in_control(self.telemetry) else None
+        if self.autopilot.in_control(self.telemetry):
+            return Event.MODE_CONFIRMED
+        return Event.REFUSED if self._command_failed(now_us, self.autopilot.take_control) else None
 
     def _arming(self, now_us: int, out: list[Output]) -> Event | None:
-        if self._command_failed():
-            return Event.REFUSED
-        if not self.autopilot.in_control(self.telemetry):
+        if self.telemetry.armed:
+            return Event.ARMED
+        if not self.autopilot.in_control(self.telemetry) and self.telemetry.mode_reports >= 2:
             self.failure = f"the vehicle left {self.autopilot.offboard_mode} before it armed"
             return Event.MODE_LOST
-        return Event.ARMED if self.telemetry.armed else None
+        return Event.REFUSED if self._command_failed(now_us, self.autopilot.arm) else None
+
+    def _taking_off(self, now_us: int, out: list[Output]) -> Event | None:
+        climbing = self.telemetry.landed_state in (
+            mavlink.MAV_LANDED_STATE_TAKEOFF,
+            mavlink.MAV_LANDED_STATE_IN_AIR,
+        )
+        if self.autopilot.takes_off_itself:
+            if self.autopilot.airborne(self.telemetry):
+                return Event.AIRBORNE
+            if climbing:
+                self._command = None  # a repeat is refused in the air
+            return Event.REFUSED if self._command_failed(now_us, None) else None
+        self.itinerary.advance(self._flight_us)
+        return Event.AIRBORNE if self.itinerary.index > 0 and self.autopilot.airborne(self.telemetry) else None
 
     def _flying(self, now_us: int, out: list[Output]) -> Event | None:
-        if not self.telemetry.armed:
-            self.failure = f"the vehicle disarmed in step {self.itinerary.index} ({self.itinerary.step.kind})"
-            return Event.DISARMED
-        if not self.autopilot.in_control(self.telemetry):
-            self.failure = f"the vehicle left {self.autopilot.offboard_mode}; it is not fought for"
-            return Event.MODE_LOST
-        astray = self._astray(now_us)
-        if astray:
-            self.failure = astray
-            return Event.ASTRAY
-        if self.itinerary.advance(now_us):
+        if self.safety.hold != self._holding:
+            text = f"holding: {self.safety.hold}" if self.safety.hold else f"no longer holding: {self._holding}"
+            self._holding = self.safety.hold
+            out.append(Note(Level.WARNING, text))
+        self.itinerary.stopped = bool(self.safety.hold) or self.rejoin.under_way(self._flight_us)
+        if self.itinerary.advance(self._flight_us):
             out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.step.kind}"))
         out.extend(self.itinerary.take_said())
         if self.itinerary.cut_short:
             self._blame(self.itinerary.cut_short)
         return Event.STEPS_DONE if self.itinerary.finished() else None
 
-    def _astray(self, now_us: int) -> str:
-        """Why the vehicle can no longer be trusted to be where the plan is safe, or nothing."""
-        telemetry = self.telemetry
-        if now_us - (telemetry.position_us or 0) > POSITION_SILENT_US:
-            return f"no position from the vehicle for {POSITION_SILENT_US / 1e6:g} s: landing"
-        here = telemetry.position_n - self.origin_n
-        error = float(np.linalg.norm(here - self.itinerary.reference(now_us).position_m))
-        if error <= ASTRAY_M:
-            self._on_track_us = now_us
-        if now_us - self._on_track_us <= ASTRAY_US:
-            return ""
-        return f"the vehicle is {error:.1f} m from its reference for {ASTRAY_US / 1e6:g} s: landing"
+    def _link_lost(self, now_us: int, out: list[Output]) -> Event | None:
+        self.itinerary.advance(self._flight_us)  # to its stop
+        return Event.VEHICLE_HEARD if now_us - (self.link.heard_us or 0) < VEHICLE_SILENT_US else None
+
+    def _rejoining(self, now_us: int, out: list[Output]) -> Event | None:
+        in_control = self.autopilot.in_control(self.telemetry)
+        self.itinerary.advance(self._flight_us)  # to its stop
+        target = self.itinerary.reference(self._flight_us)
+        wanted = self.rejoin.step(self.pose(self._flight_us), in_control, target)
+        out.extend([] if wanted is None else [wanted])
+        if self.rejoin.refusal:
+            self._blame(f"no way back to the mission: {self.rejoin.refusal}")
+            return Event.LAND_ASKED
+        if not in_control and self._command_failed(now_us, None):
+            return Event.MODE_LOST
+        return Event.REJOINED if self.rejoin.ready and in_control else None
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
-        if not self.telemetry.armed:
-            return Event.DISARMED
-        landing = self.autopilot.is_landing(self.telemetry)
-        if self._was_landing and not landing:
-            self.failure = "the vehicle stopped landing; it is not fought for"
-            return Event.MODE_LOST
-        self._was_landing = landing
-        if self._command is not None and self._command.outcome in (Outcome.REFUSED, Outcome.UNANSWERED):
-            out.append(Note(Level.ERROR, f"{self._command.failure()}; asking again"))
-            self._command = self.autopilot.land()
+        command = self._command
+        late = command is not None and command.outcome is Outcome.ACCEPTED and not self._came_down
+        late = late and isinstance(command, Command) and now_us - command.answered_us > CONFIRM_US
+        if command is not None and (command.outcome in (Outcome.REFUSED, Outcome.UNANSWERED) or late):
+            why = "accepted, but it does not land" if late else command.failure()
+            out.append(Note(Level.ERROR, f"{why}; asking again"))
+            self._command = self._way_down()
         return None
 
     def _handed_over(self, now_us: int, out: list[Output]) -> Event | None:
-        return None if self.telemetry.armed else Event.DISARMED
+        given_back, self._given_back = self._given_back, False
+        return Event.GIVEN_BACK if given_back else None
 
     def _nothing(self, now_us: int, out: list[Output]) -> Event | None:
         return None
@@ -331,32 +474,56 @@ class Companion:
         self.failure = why
         return Event.REFUSED
 
-    def _command_failed(self) -> bool:
-        """Whether the command under way has come to nothing; `failure` then says how."""
+    def _command_failed(self, now_us: int, again: Callable[[], Command] | None) -> bool:
+        """Whether the command under way has come to nothing; `failure` then says how.
+
+        One that was accepted without showing an effect is given `again`, some times.
+        """
         command = self._command
-        if command is None or command.outcome in (Outcome.PENDING, Outcome.ACCEPTED):
+        if not isinstance(command, Command) or command.outcome is Outcome.PENDING:
             return False
+        if command.outcome is Outcome.ACCEPTED:
+            if again is None or now_us - command.answered_us < CONFIRM_US:
+                return False
+            self._tries += 1
+            if self._tries < CONFIRM_TRIES:
+                self._command = again()
+                return False
+            self.failure = f"the vehicle accepted to {command.what}, and does not"
+            return True
         self.failure = command.failure()
         return True
 
-    # ---- 3. the work of a phase ---------------------------------------------------------------------------------
+    # ---- 4. the work of a phase ---------------------------------------------------------------------------------
 
     def _move(self, now_us: int, event: Event, out: list[Output]) -> None:
         """Walk the table and do what entering a phase asks for."""
         before, self.phase = self.phase, after(self.phase, event)
         if self.phase is before:
             return
-        if before is Phase.ARMING and self.phase is Phase.FAILED and event in (Event.LAND_ASKED, Event.REFUSED):
+        may_arm = before is Phase.ARMING and event in (Event.LAND_ASKED, Event.REFUSED)
+        if self.phase is Phase.FAILED and (may_arm or (before is Phase.TAKING_OFF and event is Event.REFUSED)):
             out.append(self.link.pack(self.autopilot.disarm().message(self.link.target)))  # it may arm after all
-        self._entered_us, self._command = now_us, None
+        self._entered_us, self._command, self._tries = now_us, None, 0
         bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
         text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
         out.append(Note(Level.ERROR if bad else Level.INFO, text))
+        self._enter(now_us, event, out)
+
+    def _enter(self, now_us: int, event: Event, out: list[Output]) -> None:
         match self.phase:
+            case Phase.CONNECTING:
+                self.telemetry.forget()
+                self.telemetry.heartbeat_us = None
+                self.clock.forget()
+                self._readiness = ()
             case Phase.PREPARING:
-                self._queue = self.autopilot.stream_requests()
+                self._boots = self.telemetry.boots
+                self._queue = list(self.autopilot.stream_requests())
+                self._streams_due_us = now_us + STREAMS_AGAIN_US
+                self._parameters_judged = False
                 self.telemetry.parameters = {name: b"" for name in self.autopilot.parameters_wanted()}
-                self._read_parameters(out)
+                self._read_parameters(now_us, out)
             case Phase.PLANNING:
                 self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
                 self.itinerary.yaw = self.telemetry.yaw
@@ -367,30 +534,52 @@ class Companion:
                 out.extend([] if self._plan_refusal else self.itinerary.wanted())
             case Phase.ARMING:
                 self._command = self.autopilot.arm()
+            case Phase.TAKING_OFF:
+                takeoff = self.mission.steps[0].takeoff
+                self._command = self.autopilot.takeoff(takeoff.altitude) if takeoff is not None else None
+                if not self.autopilot.takes_off_itself:
+                    self.itinerary.begin(self._flight_us)
+            case Phase.FLYING if event is Event.AIRBORNE:
+                self.itinerary.airborne(self._flight_us)
+                out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.step.kind}"))
             case Phase.FLYING:
-                self._on_track_us = now_us
-                self.itinerary.begin(now_us)
+                self.rejoin.go(self._flight_us)
+            case Phase.LINK_LOST:
+                self.itinerary.stopped = True
+            case Phase.REJOINING:
+                self.itinerary.stopped = True
+                if event is Event.GIVEN_BACK:
+                    self.failure = ""
+                    self._command = self.autopilot.take_control()
+                self.rejoin.begin(self.pose(self._flight_us))
             case Phase.LANDING:
-                self._command = self.autopilot.land()
+                self._came_down = False
+                self._command = self._way_down()
+
+    def _way_down(self) -> Command:
+        return self.autopilot.go_home() if self._going_home else self.autopilot.land()
 
     def _work(self, now_us: int, out: list[Output]) -> None:
         """Keep the command under way going; in PREPARING the next of the queue, in ENGAGING the mode."""
         if self.phase is Phase.PREPARING and self._command is None and self._queue:
             self._command = self._queue.pop(0)
-        streamed = now_us - self._streaming_us >= STREAM_BEFORE_ASKING_US
+        streamed = now_us - self._streaming_us >= STREAM_BEFORE_ASKING_US or not self.autopilot.streams_on_ground
         if self.phase is Phase.ENGAGING and self._command is None and streamed:
             self._command = self.autopilot.take_control()
         if self._command is not None and self._command.due(now_us):
             out.append(self.link.pack(self._command.message(self.link.target)))
 
-    def _read_parameters(self, out: list[Output]) -> None:
-        for name in self.telemetry.parameters:
+    def _read_parameters(self, now_us: int, out: list[Output]) -> None:
+        self._parameters_due_us = now_us + PARAMETER_REPEAT_US
+        for name, raw in self.telemetry.parameters.items():
+            if raw:
+                continue
             request = mavlink.MAVLink_param_request_read_message(
                 self.link.target, AUTOPILOT_COMPONENT, name.encode(), -1
             )
             out.append(self.link.pack(request))
 
-    # ---- 4. streams ---------------------------------------------------------------------------------------------
+    # ---- 5. streams ---------------------------------------------------------------------------------------------
 
     def _stream(self, now_us: int, out: list[Output]) -> None:
         if self.link.may_speak and now_us >= self._heartbeat_due_us:
@@ -398,9 +587,9 @@ class Companion:
             beat = self.link.pack(self._heartbeat())
             out.append(beat)
             out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
-        if self.phase not in STREAMING or self._was_landing:
+        if not self._takes_setpoints():
             return
-        reference = self.itinerary.reference(now_us)  # while landing it goes on to the end of its step, as planned
+        reference = self._asked_for(now_us)
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
         message = setpoint_message(reference, self.origin_n, time_boot_ms, self.link.target)
         if message is None:
@@ -409,8 +598,30 @@ class Companion:
             self._withheld = True
             return
         self._withheld = False
+        self._reference = reference
         out.append(reference)
         out.append(self.link.pack(message))
+
+    def _takes_setpoints(self) -> bool:
+        """Whether a setpoint is wanted in this phase by this autopilot."""
+        autopilot = self.autopilot
+        match self.phase:
+            case Phase.PLANNING | Phase.ENGAGING | Phase.ARMING:
+                return autopilot.streams_on_ground
+            case Phase.TAKING_OFF:
+                return not autopilot.takes_off_itself
+            case Phase.LANDING:
+                return autopilot.streams_until_landing and not self._came_down
+            case phase:
+                return phase in STREAMING
+
+    def _asked_for(self, now_us: int) -> Reference:
+        """The reference of this tick, in a phase that takes setpoints."""
+        if self.phase is Phase.REJOINING:
+            return self.rejoin.hold(self.itinerary.yaw)
+        if self.phase in (Phase.FLYING, Phase.LANDING) and self.rejoin.under_way(self._flight_us):
+            return self.rejoin.reference(self._flight_us, self.itinerary.yaw)
+        return self.itinerary.reference(self._flight_us)  # while landing it goes on to the end of its step, as planned
 
     def _heartbeat(self) -> Any:
         state = mavlink.MAV_STATE_ACTIVE if self.phase in STREAMING else mavlink.MAV_STATE_STANDBY
@@ -424,7 +635,10 @@ WATCH: dict[Phase, Callable[[Companion, int, list[Output]], Event | None]] = {
     Phase.PLANNING: Companion._planning,
     Phase.ENGAGING: Companion._engaging,
     Phase.ARMING: Companion._arming,
+    Phase.TAKING_OFF: Companion._taking_off,
     Phase.FLYING: Companion._flying,
+    Phase.LINK_LOST: Companion._link_lost,
+    Phase.REJOINING: Companion._rejoining,
     Phase.LANDING: Companion._landing,
     Phase.DONE: Companion._nothing,
     Phase.FAILED: Companion._nothing,

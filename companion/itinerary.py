@@ -39,6 +39,7 @@ class Itinerary:
     mission : what to fly.
     seed : for the planner; the leg of step k is planned with seed + k.
     yaw : where the nose points [rad], until a step turns it.
+    stopped : keep it at rest on its path, whatever is ordered: safety's word, not a person's.
     cut_short : by which order the mission did not go to its end; empty otherwise.
     """
 
@@ -53,6 +54,7 @@ class Itinerary:
     _asked: PlanWanted | None = None  # of an errand
     _purpose: Order | None = None  # of the errand, until it is there
     _landing: bool = False  # an order ends the flight here
+    stopped: bool = False
     cut_short: str = ""
     _requests: int = 0
     _said: list[PlanWanted | Note] = field(default_factory=list)
@@ -273,15 +275,15 @@ class Itinerary:
 
     def _follow_orders(self, now_us: int) -> None:
         """Bring the pace to what is ordered, and begin what waits for rest."""
-        walk = self._top
+        walk, paused = self._top, self._paused or self.stopped
         if walk.entered_us is None:
             return
-        if self._arrived(now_us) and self._purpose is not None and not self._paused:
+        if self._arrived(now_us) and self._purpose is not None and not paused:
             order, self._purpose = self._purpose, None
             self._arrive(now_us, order)
-        elif self._paused and walk.pace.running(now_us):
+        elif paused and walk.pace.running(now_us):
             walk.pace.stop(now_us, stop_us(walk.motion, walk.seconds(now_us), self._limits(walk)))
-        elif not self._paused and walk.pace.still(now_us):
+        elif not paused and walk.pace.still(now_us):
             walk.pace.go(now_us, go_us(walk.motion, walk.seconds(now_us), self._limits(walk)))
         elif self._paused and walk.pace.still(now_us) and self._next is not None and self._asked is None:
             self._run(now_us, self._next)

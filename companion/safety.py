@@ -1,1 +1,237 @@
-"""What leads to what when something goes wrong: the table (being filled)."""
+"""What leads to what when something goes wrong in the air: a table.
+
+`SAFETY` is read from the top: of the rules that have held long enough in the present phase, the first that names an
+event is what happens, so the order is that of urgency. `HOLD` rules name none: while one of them holds, the mission's
+clock stands and the vehicle waits on its path; each says why once. `Watch` is what the rules look at; `docs/safety.md`
+is the table for people, and a test walks every row of both.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import Enum
+
+from companion.phases import Event, Phase
+
+SILENT_S = 3.0
+GIVE_UP_S = 60.0
+POSITION_HOLD_S, POSITION_LAND_S = 1.0, 3.0
+HEARD_S = 1.5
+"""A vehicle heard within this is there: its HEARTBEAT comes once a second."""
+ASTRAY_M = 2.0
+STALLED_S = 0.5
+BATTERY_LOW, BATTERY_CRITICAL = 0.15, 0.07
+TROUBLE_S = 30.0
+TAKEOFF_S = 30.0
+REJOIN_S = 30.0
+MODE_REPORTS = 2
+"""Messages in a row that must show another mode before it is believed: one may be an old one that came late."""
+
+
+class Action(Enum):
+    """What is done, most urgent first."""
+
+    FAIL = "nothing more is sent"
+    HAND_OVER = "whoever took the mode flies"
+    WAIT = "speak on, and wait to hear it"
+    LAND = "land here"
+    RETURN = "return home"
+    REJOIN = "hold where it is, then fly back to the path"
+    HOLD = "stand on the path"
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """What is looked at, once a tick; times in seconds of our clock."""
+
+    phase: Phase
+    phase_s: float = 0.0  # since it was entered
+    silent_s: float = 0.0  # since anything was heard of the vehicle
+    position_s: float = 0.0  # since its last position
+    tick_gap_s: float = 0.02  # since our own tick before
+    rebooted: bool = False
+    disarmed: bool = False  # surely
+    in_control: bool = True
+    mode_reports: int = MODE_REPORTS
+    mode: str = ""
+    last_text: str = ""  # what the vehicle said lately, if it matters
+    stream_lost: bool = False  # it left our mode only since it missed our setpoints
+    failsafe: str = ""
+    comes_down: bool = False
+    came_down: bool = False  # it did so before
+    on_ground: bool = False
+    mode_asked: bool = False  # a change of mode is under way
+    estimator: str = ""  # why its estimate is not one to fly by
+    rejected: tuple[str, ...] = ()  # what its estimator does not believe
+    error_m: float = 0.0  # from the reference
+    battery: float | None = None  # what is left, 0..1
+    no_way: str = ""  # why there is nothing safe to fly but a stop
+    fence_m: float | None = None  # from the reference to the fence, less what is kept; negative: too near
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """In `phases`, when `holds` has told a reason for `after_s`: `action`, by `event`."""
+
+    name: str
+    action: Action
+    event: Event | None
+    phases: frozenset[Phase]
+    after_s: float
+    holds: Callable[[Watch], str]
+
+
+_FLOWN = frozenset({Phase.TAKING_OFF, Phase.FLYING, Phase.REJOINING})
+_MISSION = frozenset({Phase.FLYING})
+
+
+def _rebooted(w: Watch) -> str:
+    return "the vehicle booted again in the air: nothing more is sent" if w.rebooted else ""
+
+
+def _disarmed(w: Watch) -> str:
+    return "the vehicle disarmed in the air, or never left the ground" if w.disarmed else ""
+
+
+def _landed(w: Watch) -> str:
+    return "landed" if w.disarmed else ""
+
+
+def _gone(w: Watch) -> str:
+    return f"nothing heard from the vehicle for {GIVE_UP_S:g} s" if w.silent_s > GIVE_UP_S else ""
+
+
+def _taken(w: Watch) -> str:
+    if w.in_control or w.stream_lost or w.mode_asked or w.mode_reports < MODE_REPORTS:
+        return ""
+    return f"{w.failsafe or f'the vehicle is in {w.mode} now'}{w.last_text}; it is not fought for"
+
+
+def _stopped_landing(w: Watch) -> str:
+    if w.comes_down or w.on_ground or w.mode_reports < MODE_REPORTS or (not w.came_down and w.in_control):
+        return ""
+    if not w.came_down and (w.stream_lost or w.mode_asked):
+        return ""
+    return f"the vehicle stopped landing and is in {w.mode} now; it is not fought for"
+
+
+def _silent(w: Watch) -> str:
+    return f"nothing heard from the vehicle for {SILENT_S:g} s" if w.silent_s > SILENT_S else ""
+
+
+def _no_position(w: Watch) -> str:
+    lost = w.position_s > POSITION_LAND_S and w.silent_s < HEARD_S
+    return f"no position from the vehicle for {POSITION_LAND_S:g} s: landing" if lost else ""
+
+
+def _no_estimate(w: Watch) -> str:
+    return f"{w.estimator}: landing" if w.estimator and w.silent_s < HEARD_S else ""
+
+
+def _astray(w: Watch) -> str:
+    if w.error_m <= ASTRAY_M or w.position_s > POSITION_HOLD_S:
+        return ""
+    return f"the vehicle is {w.error_m:.1f} m from its reference for 1 s: landing"
+
+
+def _stranded(w: Watch) -> str:
+    return f"no safe way for {TROUBLE_S:g} s ({w.no_way}): landing" if w.no_way else ""
+
+
+def _takeoff_late(w: Watch) -> str:
+    return f"not in the air {TAKEOFF_S:g} s after the takeoff began: landing" if w.phase_s > TAKEOFF_S else ""
+
+
+def _rejoin_late(w: Watch) -> str:
+    return f"no way back to the mission in {REJOIN_S:g} s: landing" if w.phase_s > REJOIN_S else ""
+
+
+def _battery_critical(w: Watch) -> str:
+    return f"battery at {w.battery:.0%}: landing" if w.battery is not None and w.battery <= BATTERY_CRITICAL else ""
+
+
+def _battery_low(w: Watch) -> str:
+    return f"battery at {w.battery:.0%}: returning" if w.battery is not None and w.battery <= BATTERY_LOW else ""
+
+
+def _stream_lost(w: Watch) -> str:
+    lost = w.stream_lost and not w.in_control
+    return f"the vehicle misses our setpoints and is in {w.mode}" if lost else ""
+
+
+def _stalled(w: Watch) -> str:
+    return f"no setpoint left for {w.tick_gap_s:.1f} s" if w.tick_gap_s > STALLED_S else ""
+
+
+def _position_late(w: Watch) -> str:
+    return f"no position for {POSITION_HOLD_S:g} s" if w.position_s > POSITION_HOLD_S else ""
+
+
+def _doubted(w: Watch) -> str:
+    return f"the estimator rejects {' and '.join(w.rejected)}" if w.rejected else ""
+
+
+def _no_way(w: Watch) -> str:
+    return w.no_way
+
+
+def _at_the_fence(w: Watch) -> str:
+    return "too near the fence" if w.fence_m is not None and w.fence_m < 0.0 else ""
+
+
+_IN_AIR = _FLOWN | {Phase.LINK_LOST}
+_LANDING, _HANDED = frozenset({Phase.LANDING}), frozenset({Phase.HANDED_OVER})
+
+SAFETY: tuple[Rule, ...] = (
+    Rule("rebooted", Action.FAIL, Event.REBOOTED, _IN_AIR | _LANDING | _HANDED, 0.0, _rebooted),
+    Rule("disarmed", Action.FAIL, Event.DISARMED, _IN_AIR | _HANDED, 0.0, _disarmed),
+    Rule("landed", Action.FAIL, Event.DISARMED, _LANDING, 0.0, _landed),
+    Rule("gone", Action.FAIL, Event.GIVEN_UP, frozenset({Phase.LINK_LOST}) | _LANDING | _HANDED, 0.0, _gone),
+    Rule("mode taken", Action.HAND_OVER, Event.MODE_LOST, _FLOWN, 0.0, _taken),
+    Rule("landing stopped", Action.HAND_OVER, Event.MODE_LOST, _LANDING, 0.0, _stopped_landing),
+    Rule("silent", Action.WAIT, Event.VEHICLE_SILENT, _FLOWN, 0.0, _silent),
+    Rule("no position", Action.LAND, Event.LAND_ASKED, _FLOWN, 0.0, _no_position),
+    Rule("no estimate", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _no_estimate),
+    Rule("astray", Action.LAND, Event.LAND_ASKED, _MISSION, 1.0, _astray),
+    Rule("stranded", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _stranded),
+    Rule("takeoff late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.TAKING_OFF}), 0.0, _takeoff_late),
+    Rule("rejoining late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.REJOINING}), 0.0, _rejoin_late),
+    Rule("battery critical", Action.LAND, Event.LAND_ASKED, _FLOWN, 2.0, _battery_critical),
+    Rule("battery low", Action.RETURN, Event.LAND_ASKED, _MISSION, 2.0, _battery_low),
+    Rule("stream lost", Action.REJOIN, Event.INTERRUPTED, frozenset({Phase.TAKING_OFF}) | _MISSION, 0.0, _stream_lost),
+    Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
+    Rule("position late", Action.HOLD, None, _MISSION, 0.0, _position_late),
+    Rule("estimate doubted", Action.HOLD, None, _MISSION, 2.0, _doubted),
+    Rule("no way", Action.HOLD, None, _MISSION, 0.0, _no_way),
+    Rule("at the fence", Action.HOLD, None, _MISSION, 0.0, _at_the_fence),
+)
+
+
+@dataclass(slots=True)
+class Safety:
+    """Keeps for how long each rule has held.
+
+    Attributes
+    ----------
+    hold : why the mission's clock has to stand, or nothing.
+    """
+
+    hold: str = ""
+    _since_us: dict[str, int] = field(default_factory=dict)
+
+    def step(self, now_us: int, watch: Watch) -> tuple[Rule, str] | None:
+        """The rule that acts now and its reason, if there is one."""
+        acting: tuple[Rule, str] | None = None
+        self.hold = ""
+        for rule in SAFETY:
+            reason = rule.holds(watch) if watch.phase in rule.phases else ""
+            if not reason:
+                self._since_us.pop(rule.name, None)
+                continue
+            since_us = self._since_us.setdefault(rule.name, now_us)
+            if now_us - since_us < rule.after_s * 1e6:
+                continue
+            if rule.event is None:
+                self.hold = self.hold or reason
+            elif acting is None:
+                acting = (rule, reason)
+        return acting

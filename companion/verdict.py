@@ -4,8 +4,9 @@
 is a simulator that tells it, the truth (HIL_STATE_QUATERNION). `Verdict` is the table at the end.
 
 Tracking error is |position - reference| at the time of each position sample, the reference interpolated between ticks.
-It is taken in the mission frame: the estimate less the local origin that the companion fixed on the ground, and the
-truth relative to where it stood at that moment. So what the estimator drifts from then on counts against the flight.
+It begins with FLYING, after the takeoff, which some vehicles fly by themselves. It is taken in the mission frame: the
+estimate less the local origin that the companion fixed on the ground, and the truth relative to where it stood at that
+moment. So what the estimator drifts from then on counts against the flight.
 """
 
 import math
@@ -62,11 +63,13 @@ class FlightMeter:
         self._estimates: list[tuple[float, ...]] = []  # received_us, x, y, z in n
         self._truths: list[tuple[float, ...]] = []  # received_us, lat_e7, lon_e7, alt_mm
         self._setpoints_us: list[int] = []
-        self._engaged_us: int | None = None
+        self._phase: Phase | None = None
+        self._stands_us: int | None = None  # when the local origin was fixed
         self._first_us: int | None = None
         self._last_us = 0
         self.airborne_us: list[int] = []  # [first, last] tick of Phase.FLYING
-        self._aloft_until_us = 0  # last tick at which it was armed after that: the landing belongs to the clearance
+        self._aloft_from_us: int | None = None  # the takeoff and the landing belong to the clearance,
+        self._aloft_until_us = 0  # not to the tracking error
 
     def __call__(self, tick: Tick) -> None:
         self._first_us = tick.now_us if self._first_us is None else self._first_us
@@ -74,13 +77,18 @@ class FlightMeter:
         for received_us, item in tick.inputs:
             if isinstance(item, Datagram) and item.link == VEHICLE_LINK:
                 self._hear(received_us, item)
-        if self._companion.phase is Phase.FLYING:
+        phase = self._companion.phase
+        if phase is Phase.PLANNING and self._phase is not Phase.PLANNING:
+            self._stands_us = tick.now_us
+        self._phase = phase
+        if phase in (Phase.TAKING_OFF, Phase.FLYING) and self._aloft_from_us is None:
+            self._aloft_from_us = tick.now_us
+        if phase is Phase.FLYING:
             self.airborne_us = [self.airborne_us[0] if self.airborne_us else tick.now_us, tick.now_us]
-        if self.airborne_us and self._companion.telemetry.armed:
+        if self._aloft_from_us is not None and self._companion.telemetry.armed:
             self._aloft_until_us = tick.now_us
         for output in tick.outputs:
             if isinstance(output, Reference):
-                self._engaged_us = tick.now_us if self._engaged_us is None else self._engaged_us
                 self._references.append((tick.now_us, *output.position_m))
                 self._setpoints_us.append(tick.sent_us)
 
@@ -125,8 +133,8 @@ class FlightMeter:
 
         def to_mission_frame(rows: FloatArray) -> FloatArray:
             ned = local_ned(rows[:, 1], rows[:, 2], rows[:, 3])
-            assert self._engaged_us is not None
-            standing = ned[rows[:, 0] <= self._engaged_us]
+            assert self._stands_us is not None
+            standing = ned[rows[:, 0] <= self._stands_us]
             moved: FloatArray = ned - (standing[-1] if len(standing) else ned[0]) + start
             return moved
 
@@ -139,7 +147,7 @@ class FlightMeter:
         position = to_mission_frame(rows)
         first, last = self.airborne_us
         flown = (rows[:, 0] >= first) & (rows[:, 0] <= last)
-        aloft = position[(rows[:, 0] >= first) & (rows[:, 0] <= self._aloft_until_us)]
+        aloft = position[(rows[:, 0] >= (self._aloft_from_us or 0)) & (rows[:, 0] <= self._aloft_until_us)]
         if not flown.any():
             return None
         at, position = rows[flown, 0], position[flown]

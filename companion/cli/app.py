@@ -27,6 +27,7 @@ Seed = Annotated[
     int, typer.Option(help="Seed of everything random: planner, and simulated sensors.", min=0, max=2**31 - 1)
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print exactly one JSON object on stdout.")]
+Autopilot = Annotated[Literal["px4", "ardupilot"], typer.Option(help="Whose behaviour the bundled vehicle shows.")]
 RecordDirectory = Annotated[Path, typer.Option("--record", metavar="DIR", help="Directory for the recording.")]
 Outs = Annotated[list[str] | None, typer.Option("--out", metavar="URL", help="Forward to and from a ground station.")]
 
@@ -34,11 +35,17 @@ RECORDINGS = Path("recordings")
 
 
 @app.command()
-def demo(record: RecordDirectory = RECORDINGS, out: Outs = None, seed: Seed = 1, json: Json = False) -> None:
+def demo(
+    record: RecordDirectory = RECORDINGS,
+    out: Outs = None,
+    seed: Seed = 1,
+    autopilot: Autopilot = "px4",
+    json: Json = False,
+) -> None:
     """Fly the L-shaped wall with the bundled vehicle, over UDP, recorded. Needs nothing else."""
     from companion.cli.fly import fly_demo
 
-    raise typer.Exit(fly_demo(record, out or [], seed, json))
+    raise typer.Exit(fly_demo(record, out or [], seed, autopilot, json))
 
 
 @app.command()
@@ -67,12 +74,13 @@ def simulate(
     mission: MissionFile,
     seed: Seed = 1,
     record: Annotated[Path | None, typer.Option("--record", metavar="FILE", help="Keep the recording here.")] = None,
+    autopilot: Autopilot = "px4",
     json: Json = False,
 ) -> None:
     """Fly a mission in lockstep: same cores, no sockets, as fast as the CPU allows, repeatable to the byte."""
     from companion.cli.simulate import simulate_mission
 
-    raise typer.Exit(simulate_mission(mission, seed, record, json))
+    raise typer.Exit(simulate_mission(mission, seed, record, autopilot, json))
 
 
 @app.command("test")

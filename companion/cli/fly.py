@@ -10,6 +10,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
@@ -31,8 +32,11 @@ from logs.recorder import Recorder
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
+if TYPE_CHECKING:
+    from fakevehicle.config import Autopilot
 
-def fly_demo(record: Path, outs: list[str], seed: int, as_json: bool) -> int:
+
+def fly_demo(record: Path, outs: list[str], seed: int, autopilot: "Autopilot", as_json: bool) -> int:
     """The embedded default: the bundled vehicle as its own process, on a port the system chooses."""
     from companion.cli.vehicle import running_vehicle
 
@@ -44,7 +48,7 @@ def fly_demo(record: Path, outs: list[str], seed: int, as_json: bool) -> int:
     endpoints = {VEHICLE_LINK: Endpoint("udpin", host, port)} | ground_endpoints(outs)
     config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
     operator, url = Operator(), f"udpout:{host}:{port}"
-    with operator.listening(), running_vehicle(mission, url, seed, _vehicle_log(file)) as vehicle:
+    with operator.listening(), running_vehicle(mission, url, seed, _vehicle_log(file), autopilot) as vehicle:
         return _fly(mission, data, endpoints, file, config, as_json, operator, watch=vehicle)
 
 

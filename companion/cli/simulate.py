@@ -16,6 +16,7 @@ from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.missionfile import parse_mission, read_mission_file
 from companion.verdict import FlightMeter, judge
+from fakevehicle.config import Autopilot
 from fakevehicle.vehicle import Vehicle
 from logs.recorder import Recorder
 from planner import warm_up
@@ -24,7 +25,7 @@ LIMIT_S = 3600.0
 """Simulated time, holds apart, after which a flight that does not end is ended."""
 
 
-def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) -> int:
+def simulate_mission(path: Path, seed: int, record: Path | None, autopilot: Autopilot, as_json: bool) -> int:
     """Fly `path` in lockstep; returns the exit code."""
     out = show.console()
     data = read_mission_file(path)
@@ -32,9 +33,9 @@ def simulate_mission(path: Path, seed: int, record: Path | None, as_json: bool) 
     companion = Companion(mission, CompanionConfig(seed=seed))
     planning = InlinePlanning(mission.planner_world())
     with show.working(out, "preparing kernels (compiled the first time)"):
-        build_vehicle(mission, seed).step(Vehicle.TICK_US, [])  # one step of a twin, thrown away
+        build_vehicle(mission, seed, autopilot).step(Vehicle.TICK_US, [])  # one step of a twin, thrown away
         warm_up()
-    vehicle = build_vehicle(mission, seed)
+    vehicle = build_vehicle(mission, seed, autopilot)
     meter = FlightMeter(companion)
     operator = Operator()
     with ExitStack() as stack:

@@ -128,12 +128,14 @@ def build_vehicle(
 
 
 @contextmanager
-def running_vehicle(mission: Mission, url: str, seed: int, log: Path) -> Iterator[subprocess.Popen[bytes]]:
+def running_vehicle(
+    mission: Mission, url: str, seed: int, log: Path, autopilot: Autopilot = "px4"
+) -> Iterator[subprocess.Popen[bytes]]:
     """The vehicle as a process of its own, calling `url`; what it prints goes to `log`. Ended at the end."""
     home, wind = home_of(mission), mission.wind
     place = f"{math.degrees(home.latitude):.7f},{math.degrees(home.longitude):.7f},{home.altitude:g}"
     command = [
-        *(sys.executable, "-m", "fakevehicle", "--connect", url, "--seed", str(seed)),
+        *(sys.executable, "-m", "fakevehicle", "--connect", url, "--seed", str(seed), "--autopilot", autopilot),
         *("--home", f"{place},{mission.vehicle.start.heading_deg:g}"),
         *("--wind", f"{wind.north:g},{wind.east:g},{wind.down:g}"),
     ]

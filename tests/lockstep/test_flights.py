@@ -113,11 +113,15 @@ class Silent:
         return self.vehicle.step(now_us, inputs) if now_us < self.after_us else []
 
 
-def test_a_vehicle_that_vanishes_in_flight_ends_the_flight_after_three_seconds_in_one_line(fly):
-    flight = fly(between=lambda vehicle: Silent(vehicle, 12_000_000))
+def test_a_vehicle_that_vanishes_in_flight_is_spoken_to_for_a_minute_and_given_up_in_one_line(fly):
+    flight = fly(between=lambda vehicle: Silent(vehicle, 10_000_000))
     assert flight.companion.phase is Phase.FAILED
-    assert flight.verdict.failure.startswith("nothing heard from the vehicle for 3.0")
-    assert flight.ticks[-1].now_us == pytest.approx(15_000_000, abs=100_000)
+    assert flight.verdict.failure == "nothing heard from the vehicle for 60 s"
+    assert flight.ticks[-1].now_us == pytest.approx(70_000_000, abs=100_000)
+    lost = next(t.now_us for t in flight.ticks if any("-> link lost" in str(o) for o in t.outputs))
+    assert lost == pytest.approx(13_000_000, abs=100_000)
+    setpoints = [t for t, _ in sent(flight, mavlink.MAVLINK_MSG_ID_SET_POSITION_TARGET_LOCAL_NED)]
+    assert setpoints[-1] == pytest.approx(70.0, abs=0.1)
 
 
 def test_a_vehicle_that_never_answers_is_given_up_after_the_time_to_wait(fly):
@@ -184,7 +188,7 @@ class Deaf:
 def test_a_flight_without_position_lands(fly):
     flight = fly(between=Deaf)
     assert flight.companion.phase is Phase.DONE
-    assert flight.verdict.failure == "no position from the vehicle for 1 s: landing"
+    assert flight.verdict.failure == "no position from the vehicle for 3 s: landing"
 
 
 def test_land_asked_while_arming_disarms(fly):

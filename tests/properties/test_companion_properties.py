@@ -80,9 +80,9 @@ def test_a_ready_vehicle_that_is_anywhere_in_any_mode_never_makes_the_companion_
         beat = mavlink.MAVLink_heartbeat_message(2, 12, 0x81 if k >= armed_from else 0x01, mode, 4, 3)
         health = mavlink.MAVLink_sys_status_message(0, 0, 2**28, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
         estimator = mavlink.MAVLink_estimator_status_message(0, 0x3FF, *[0.0] * 8)
-        attitude = mavlink.MAVLink_attitude_message(0, 0, 0, place[5], 0, 0, 0)
+        attitude = mavlink.MAVLink_attitude_message(k * 250, 0, 0, place[5], 0, 0, 0)
         acks = [mavlink.MAVLink_command_ack_message(c, 0) for c in (511, 176, 400)]
-        position = mavlink.MAVLink_local_position_ned_message(0, *place)
+        position = mavlink.MAVLink_local_position_ned_message(k * 250, *place)
         said = packets_of(1, 1, [beat, health, estimator, attitude, position, *acks])
         out = companion.step(k * 250_000, [*(Datagram(VEHICLE_LINK, data) for data in said), plan])
         assert all(np.isfinite(o.position_m).all() for o in out if isinstance(o, Reference))

@@ -20,7 +20,7 @@ from logs.reader import Recording
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory) -> Path:
     file = tmp_path_factory.mktemp("recordings") / "flight.mcap"
-    assert simulate_mission(Path("missions/l_shape.yaml"), 1, file, as_json=False) == 0
+    assert simulate_mission(Path("missions/l_shape.yaml"), 1, file, "px4", as_json=False) == 0
     return file
 
 
@@ -28,7 +28,7 @@ def test_the_same_seed_gives_a_byte_identical_recording_and_another_seed_does_no
     digests = []
     for seed in (1, 2):
         file = tmp_path / f"{seed}.mcap"
-        simulate_mission(Path("missions/l_shape.yaml"), seed, file, as_json=True)
+        simulate_mission(Path("missions/l_shape.yaml"), seed, file, "px4", as_json=True)
         digests.append(hashlib.sha256(file.read_bytes()).hexdigest())
     assert digests[0] == hashlib.sha256(recording.read_bytes()).hexdigest()
     assert digests[0] != digests[1]

@@ -57,9 +57,9 @@ def test_a_ground_station_a_companion_and_another_system_are_not_the_vehicle():
 
 def test_a_vehicle_of_another_make_is_refused_by_name():
     companion = Companion(MISSION, CompanionConfig())
-    companion.step(0, [said(heartbeat(autopilot=3), HERE)])
+    companion.step(0, [said(heartbeat(autopilot=18), HERE)])
     assert companion.over
-    assert companion.failure == "autopilot type 3 found, expected PX4 (12)"
+    assert companion.failure == "autopilot type 18 found, expected ArduPilot (3) or PX4 (12)"
 
 
 def test_a_ground_station_hears_the_vehicle_and_our_heartbeat_and_is_heard_only_when_there_is_a_vehicle():

@@ -58,7 +58,12 @@ def test_every_mission_that_ships_is_a_good_one(path):
         ("altitude: 1.5", "altitude: .nan", 11, ["steps.0.takeoff.altitude", "found nan", "a finite number"]),
         ("east: 10,", "eats: 10,", 12, ["steps.1.goto.eats", "unknown key", "did you mean east?"]),
         ("east: 10,", "east: 10, east: 11,", 12, ["east", "found twice, expected once"]),
-        ("{altitude: 1.5}", "", 11, ["steps.0", "exactly one of takeoff, goto, via, orbit, yaw, hold, wait, return, land"]),
+        (
+            "{altitude: 1.5}",
+            "",
+            11,
+            ["steps.0", "exactly one of takeoff, goto, via, orbit, yaw, hold, wait, return, land"],
+        ),
         ("{altitude: 1.5}", "3", 11, ["steps.0.takeoff", "found 3", "expected a mapping"]),
         ("east: 10,", "", 12, ["steps.1.goto.east", "found nothing", "expected a value"]),
         ("north: [0, 20]", "north: [20, 0]", 5, ["world.bounds.north", "low < high", "[20, 0]"]),

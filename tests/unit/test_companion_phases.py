@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from companion.phases import OVER, TRANSITIONS, Event, Phase, after
+from companion.phases import AIRBORNE, OVER, TRANSITIONS, Event, Phase, after
 
 
 @pytest.mark.parametrize(("phase", "event"), list(itertools.product(Phase, Event)))
@@ -16,11 +16,21 @@ def test_every_pair_of_phase_and_event_has_the_outcome_the_table_names_and_all_o
 
 
 @pytest.mark.parametrize("phase", [p for p in Phase if p not in OVER])
-def test_a_vehicle_that_falls_silent_or_an_operator_who_asks_for_land_is_heard_in_every_phase_but_the_landing(phase):
-    if phase is not Phase.CONNECTING:
-        assert after(phase, Event.VEHICLE_SILENT) is Phase.FAILED
+def test_an_operator_who_asks_for_land_is_heard_in_every_phase_but_the_landing(phase):
     if phase is not Phase.LANDING:
-        assert after(phase, Event.LAND_ASKED) is (Phase.LANDING if phase is Phase.FLYING else Phase.FAILED)
+        assert after(phase, Event.LAND_ASKED) is (Phase.LANDING if phase in AIRBORNE else Phase.FAILED)
+
+
+@pytest.mark.parametrize("phase", [Phase.PREPARING, Phase.PLANNING, Phase.ENGAGING])
+def test_on_the_ground_a_vehicle_that_is_gone_or_boots_again_is_waited_for(phase):
+    assert after(phase, Event.VEHICLE_SILENT) is Phase.CONNECTING
+    assert after(phase, Event.REBOOTED) is Phase.CONNECTING
+
+
+@pytest.mark.parametrize("phase", [Phase.TAKING_OFF, Phase.FLYING, Phase.REJOINING])
+def test_in_the_air_a_silent_vehicle_is_spoken_to_and_one_that_boots_again_is_left_alone(phase):
+    assert after(phase, Event.VEHICLE_SILENT) is Phase.LINK_LOST
+    assert after(phase, Event.REBOOTED) is Phase.FAILED
 
 
 def test_in_the_air_no_refusal_ends_the_flight_without_a_landing():

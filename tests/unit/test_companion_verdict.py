@@ -45,7 +45,7 @@ def fly(offset_n, sideways, clock_s=10.0, broken=()):
         t = index / 50
         p = np.array([t, sideways, -2.0]) + offset_n
         x = float("nan") if index in broken else p[0]
-        message = mavlink.MAVLink_local_position_ned_message(0, x, p[1], p[2], 1, 0, 0)
+        message = mavlink.MAVLink_local_position_ned_message(index * 20, x, p[1], p[2], 1, 0, 0)
         inputs = [(index * 20_000, Datagram(VEHICLE_LINK, bytes(message.pack(mav)), PEER))]
         reference = Reference(np.array([t, 0.0, -2.0]), np.array([1.0, 0, 0]), np.zeros(3), 0.0)
         meter(Tick(index, index * 20_000, inputs, [reference], index * 20_000))
