@@ -3,6 +3,7 @@
 import sys
 
 from benchmarks import (
+    bench_airframes,
     bench_certificates,
     bench_estimator,
     bench_fields,
@@ -34,6 +35,7 @@ def main() -> None:
     bench_physics.main()
     bench_vehicle.main()
     bench_tracking.main()
+    bench_airframes.main()
 
 
 if __name__ == "__main__":
