@@ -27,6 +27,7 @@ from companion.autopilots import AUTOPILOTS
 from companion.autopilots.base import Autopilot
 from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome, ParameterWrite, is_for
+from companion.ground.router import Router
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
 from companion.mission import Mission
@@ -101,6 +102,7 @@ class Companion:
         self.seeing: Seeing = NothingSeen()
         self.replanning: Replanning = NothingReplanned()
         self.ground: Ground = NobodyAsks()
+        self.router = Router(config.ground_links)
         if mission.senses():
             sight = Sight(mission)
             self.seeing, self.replanning = sight, Replanned(mission, self.itinerary, sight, config.seed)
@@ -178,7 +180,7 @@ class Companion:
 
     def _take(self, now_us: int, item: Input, out: list[Output]) -> None:
         match item:
-            case Datagram(link=link, data=data) if link == VEHICLE_LINK:
+            case Datagram(link=link) if link == VEHICLE_LINK:
                 for packet, obeyed in self.link.packets(now_us, item):
                     if obeyed:
                         self._hear(now_us, packet)
@@ -186,11 +188,11 @@ class Companion:
                 if self.link.impostor:
                     out.append(Note(Level.WARNING, self.link.impostor))
                     self.link.impostor = ""
-                out.extend(Datagram(ground, data) for ground in self.config.ground_links)
-            case Datagram(link=link, data=data) if link in self.config.ground_links:
+                out.extend(self.router.route(now_us, item, self.link.system_id, self.link.peer))
+            case Datagram(link=link) if link in self.config.ground_links:
                 out.extend(self.ground.take(now_us, item, lambda order: self.obey(now_us, order)))
-                if self.link.may_speak:
-                    out.append(Datagram(VEHICLE_LINK, data, self.link.peer))
+                routed = self.router.route(now_us, item, self.link.system_id, self.link.peer)
+                out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
             case ReplanReady():
                 self.replanning.take(item, self._flight_us)
             case PlanReady():

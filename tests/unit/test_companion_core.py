@@ -64,10 +64,11 @@ def test_a_vehicle_of_another_make_is_refused_by_name():
 
 def test_a_ground_station_hears_the_vehicle_and_our_heartbeat_and_is_heard_only_when_there_is_a_vehicle():
     companion = Companion(MISSION, CompanionConfig(ground_links=("out0",)))
-    asked = Datagram("out0", b"question", ("10.0.0.9", 14550))
+    question = said(mavlink.MAVLink_param_request_list_message(1, 1), HERE, system=255, component=190).data
+    asked = Datagram("out0", question, ("10.0.0.9", 14550))
     assert companion.step(0, [asked]) == []
     out = companion.step(20_000, [said(heartbeat(), HERE), asked])
-    assert Datagram(VEHICLE_LINK, b"question", HERE) in out
+    assert Datagram(VEHICLE_LINK, question, HERE) in out
     ground = [o.data for o in out if isinstance(o, Datagram) and o.link == "out0"]
     assert said(heartbeat(), HERE).data in ground
     assert any(data[5:10] == bytes([1, 191, 0, 0, 0]) for data in ground)
