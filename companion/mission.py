@@ -181,6 +181,8 @@ class Expect(Model):
     min_clearance_m: Finite | None = None
     duration_max_s: Positive | None = None
     setpoint_gap_p99_ms: Positive | None = None
+    setpoint_gap_max_ms: Positive | None = None
+    phase: Literal["done", "failed", "handed over"] = "done"  # how it ends: a mission may be there to be refused
 
 
 class Mission(Model):

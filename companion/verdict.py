@@ -189,24 +189,34 @@ class Verdict:
     track: Track | None = field(repr=False)
 
 
-def judge(companion: Companion, meter: FlightMeter) -> Verdict:
-    """Measure a flight and hold it against `mission.expect`."""
+def judge(companion: Companion, meter: FlightMeter, beside_m: float | None = None) -> Verdict:
+    """Measure a flight and hold it against `mission.expect`.
+
+    Parameters
+    ----------
+    beside_m : least clearance to what appears and moves, from somebody who sees it [m]; None: nobody does.
+    """
     mission = companion.mission
     truth, estimate = meter.truth_track(), meter.estimate_track()
     track = truth if truth is not None else estimate
     flown, believed = _statistics(track), _statistics(estimate)
     gaps = meter.setpoint_gaps_ms()
+    beside = least_clearance(mission, track.aloft_m) if track else None
     numbers: dict[str, float | None] = {
         "tracking_error_p95_m": flown.p95 if flown else None,
-        "min_clearance_m": least_clearance(mission, track.aloft_m) if track else None,
+        "min_clearance_m": min((m for m in (beside, beside_m) if m is not None), default=None),
         "duration_max_s": meter.duration_s,
         "setpoint_gap_p99_ms": float(np.percentile(gaps, 99)) if len(gaps) else None,
+        "setpoint_gap_max_ms": float(gaps.max()) if len(gaps) else None,
     }
+    wanted = mission.expect.phase
     failed = failed_expectations(mission, numbers)
     if numbers["min_clearance_m"] is not None and numbers["min_clearance_m"] < 0.0:
         failed.append(f"the hull was {-numbers['min_clearance_m']:.3f} m inside an obstacle")
+    if companion.phase.value != wanted and wanted != Phase.DONE.value:
+        failed.insert(0, f"phase: found {companion.phase.value}, expected {wanted}")
     return Verdict(
-        ok=companion.phase is Phase.DONE and not failed and not companion.failure,
+        ok=companion.phase.value == wanted and not failed and not (companion.failure and wanted == Phase.DONE.value),
         mission=mission.name,
         seed=companion.config.seed,
         phase=companion.phase.value,
@@ -224,7 +234,7 @@ def judge(companion: Companion, meter: FlightMeter) -> Verdict:
         min_clearance_m=numbers["min_clearance_m"],
         setpoint_rate_hz=float(1e3 / gaps.mean()) if len(gaps) else None,
         setpoint_gap_p99_ms=numbers["setpoint_gap_p99_ms"],
-        setpoint_gap_max_ms=float(gaps.max()) if len(gaps) else None,
+        setpoint_gap_max_ms=numbers["setpoint_gap_max_ms"],
         track=track,
     )
 
@@ -232,7 +242,7 @@ def judge(companion: Companion, meter: FlightMeter) -> Verdict:
 def failed_expectations(mission: Mission, numbers: dict[str, float | None]) -> list[str]:
     """One line for each expectation that is not met: name, found, expected."""
     failed = []
-    for name, bound in mission.expect.model_dump(exclude_none=True).items():
+    for name, bound in mission.expect.model_dump(exclude_none=True, exclude={"phase"}).items():
         value = numbers[name]
         at_least = name == "min_clearance_m"
         sign = "at least" if at_least else "at most"

@@ -76,6 +76,7 @@ class Flight:
     Attributes
     ----------
     mission, companion, vehicle : as they will be flown; look at them and set them up before, look at them after.
+    result : what came of it; None before it was flown to its end.
     """
 
     def __init__(self, spec: FlightSpec) -> None:
@@ -86,6 +87,7 @@ class Flight:
         self.companion = Companion(self.mission, CompanionConfig(seed=spec.seed, system_id=named))
         reboot_us = None if spec.reboot_s is None else round(1e6 * spec.reboot_s)
         self.vehicle = self._build() if reboot_us is None else RestartingVehicle(self._build, reboot_us)
+        self.result: FlightResult | None = None
 
     def _build(self) -> Vehicle:
         spec = self.spec
@@ -137,22 +139,23 @@ class Flight:
             )
         if not companion.over and not until():
             companion.failure = companion.failure or f"not over after {limit_s:g} s of simulated time"
-        verdict = judge(companion, meter)
+        verdict = judge(companion, meter, None if around is None else around.least)
         cause = first_cause(verdict, story, around, innovations)
-        return FlightResult(
+        self.result = FlightResult(
             spec=spec,
             ok=not cause,
             cause=cause,
             phase=companion.phase.value,
             failure=companion.failure,
             verdict=verdict,
-            min_clearance_m=_least(verdict.min_clearance_m, None if around is None else around.least),
+            min_clearance_m=verdict.min_clearance_m,
             innovation=innovations.first,
             notes=tuple(story.notes),
             simulated_s=end_us / 1e6,
             cpu_s=time.process_time() - cpu,
             recording=spec.record,
         )
+        return self.result
 
     def _surroundings(self) -> Surroundings | None:
         """Where something appears or moves; of the rest the verdict knows."""
@@ -178,7 +181,7 @@ def first_cause(verdict: Verdict, story: Story, around: Surroundings | None, inn
     What was touched and what the companion blames, by time; then what the mission expects. An innovation that failed
     before is told along.
     """
-    first = verdict.failure
+    first = "" if verdict.ok else verdict.failure
     if around is not None and around.touched_us is not None:
         blamed_us = story.blamed_us
         first = around.touched if not first or blamed_us is None or around.touched_us < blamed_us else first
@@ -187,7 +190,3 @@ def first_cause(verdict: Verdict, story: Story, around: Surroundings | None, inn
     if not first and not verdict.ok:
         first = f"ended {verdict.phase}"
     return f"{first} (first innovation refused: {innovations.first})" if first and innovations.first else first
-
-
-def _least(*clearances: float | None) -> float | None:
-    return min((c for c in clearances if c is not None), default=None)
