@@ -18,6 +18,8 @@ MAX_ITEMS = 1000
 """Most items of one plan."""
 FARTHEST = 10_000.0
 """Highest altitude of an item, and largest radius [m]."""
+LOWEST = -500.0
+"""Lowest altitude of an item [m]: the shores of the Dead Sea are at -430."""
 
 _m = mavlink
 GLOBAL_FRAMES = (_m.MAV_FRAME_GLOBAL, _m.MAV_FRAME_GLOBAL_INT)
@@ -169,10 +171,10 @@ def item_flaw(kind: Kind, item: PlanItem) -> Flaw | None:
         value = item.params[number - 1]
         if not (math.isnan(value) or low <= value <= high):
             return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected {low:g}..{high:g}")
-    for number, limit in ((5, 90.0), (6, 180.0), (7, FARTHEST)) if row.place else ():
+    for number, low, high in _PLACE if row.place else ():
         value = item.params[number - 1]
-        if abs(value) > limit:
-            return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected at most {limit:g}")
+        if not (math.isnan(value) or low <= value <= high):
+            return Flaw(_param(number), f"{row.title}: param{number} is {value:g}, expected {low:g}..{high:g}")
     if kind is not Kind.MISSION and not item.has_place:
         return Flaw(_param(5), f"{row.title} without a place")
     if item.command in _NEED_A_PLACE and not item.has_place:
@@ -182,6 +184,8 @@ def item_flaw(kind: Kind, item: PlanItem) -> Flaw | None:
     return None
 
 
+_PLACE = ((5, -90.0, 90.0), (6, -180.0, 180.0), (7, LOWEST, FARTHEST))
+"""Latitude, longitude and altitude of whatever is a place: parameter, lowest, highest."""
 _NEED_A_PLACE = (_m.MAV_CMD_NAV_WAYPOINT, _m.MAV_CMD_CONDITION_GATE, _m.MAV_CMD_DO_SET_ROI_LOCATION)
 
 

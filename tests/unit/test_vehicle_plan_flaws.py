@@ -108,6 +108,7 @@ def test_where_item_0_is_home_nothing_jumps_there_and_the_last_item_is_a_target(
         (Kind.MISSION, jump(1.5), 6, "jump: param1 is 1.5, expected a whole number"),
         (Kind.MISSION, jump(0, 2.5), 7, "jump: param2 is 2.5, expected a whole number"),
         (Kind.MISSION, jump(0, NAN), 7, "jump: param2 is not given"),
+        (Kind.MISSION, item(16, up=-9000.0), 12, "waypoint: param7 is -9000, expected -500..10000"),
         (Kind.MISSION, item(16, 0, 0, 0, math.inf), 9, "waypoint: param4 is inf, expected a finite number"),
     ],
 )
