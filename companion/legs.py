@@ -15,6 +15,8 @@ COLUMN_STEP = 0.02
 """Spacing of the samples along climb, landing and circles [m]."""
 NO_WAY = 1e-6
 """An orbit's circle nearer than this needs no leg that leads to it [m]."""
+SAME = 1e-3
+"""A place nearer than this to where one is already needs no way to it [m]."""
 
 Path = StraightMove | Circle | Trajectory
 
@@ -76,7 +78,10 @@ def lay_out(mission: Mission, seed: int, start_m: Vector) -> list[Leg]:
                 circle = circle_of(step.orbit, here, limits)
                 goal = circle.state(0.0).position
                 leg.then = [circle]
-            if step.orbit is None or float(np.linalg.norm(goal - here)) > NO_WAY:
+            away = float(np.linalg.norm(goal - here))
+            if step.orbit is None and not via and away < SAME:
+                goal = here
+            elif step.orbit is None or away > NO_WAY:
                 leg.wanted = PlanWanted(
                     request_id=i,
                     start_m=vector(here),

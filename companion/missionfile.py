@@ -1,4 +1,4 @@
-"""The YAML file of a mission: read safely, checked once, every problem told at once.
+"""The file of a mission: read safely, checked once, every problem told at once. YAML, or a ground station's plan.
 
 Each has its line: file, line, key, what was found and what was expected. The file is read with PyYAML's safe loader.
 """
@@ -13,6 +13,8 @@ from pydantic import BaseModel, ValidationError
 from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.mission import Mission
+from companion.planfiles import is_plan_file, read
+from companion.planfiles.plan import mission_document, to_mission
 from companion.shapes import ORIGIN, Origin
 
 MAX_FILE_BYTES = 1_000_000
@@ -46,12 +48,14 @@ def read_mission_file(path: str | Path) -> bytes:
 
 
 def parse_mission(data: bytes, file: str) -> Mission:
-    """Check a mission given as the bytes of its YAML file; `file` is its name in errors. Raises as `load_mission`.
+    """Check a mission given as the bytes of its file; `file` is its name in errors. Raises as `load_mission`.
 
     Files of voxels and clouds are looked for in the folder of `file`.
     """
     if len(data) > MAX_FILE_BYTES:
         raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
+    if is_plan_file(data):
+        return _of_plan(data, file)
     try:
         text = data.decode("utf-8")
         _refuse_traps(text, file)
@@ -79,6 +83,21 @@ def parse_mission(data: bytes, file: str) -> Mission:
     found = mission.read_maps(Path(file).parent)
     if found:
         raise MissionError(file, [f"line {_line(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
+    return mission
+
+
+def _of_plan(data: bytes, file: str) -> Mission:
+    """The mission of a ground station's plan; problems name the key that a mission file would have."""
+    plan = read(data, file)
+    document = mission_document(plan, Path(file.rpartition(": ")[2]).stem[:100] or "plan", file)
+    assert plan.home is not None
+    try:
+        mission = to_mission(document, plan.home)
+    except ValidationError as error:
+        raise MissionError(file, [_problem(item, None).partition(": ")[2] for item in error.errors()]) from error
+    found = mission.beyond_the_fence()
+    if found:
+        raise MissionError(file, [f"{'.'.join(map(str, k))}: {text}" for k, text in found])
     return mission
 
 

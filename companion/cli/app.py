@@ -18,6 +18,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
+mission_app = typer.Typer(help="Missions and ground stations' plans.", no_args_is_help=True)
+app.add_typer(mission_app, name="mission")
 log_app = typer.Typer(help="Look into recordings.", no_args_is_help=True)
 app.add_typer(log_app, name="log")
 
@@ -135,6 +137,18 @@ def worlds(
     from companion.cli.worlds import write_world
 
     raise typer.Exit(write_world(family, seed, output, force))
+
+
+@mission_app.command("convert")
+def mission_convert(
+    source: Annotated[Path, typer.Argument(metavar="IN", help="YAML mission, QGroundControl .plan, or QGC WPL 110.")],
+    target: Annotated[Path, typer.Argument(metavar="OUT", help="Its ending says how: .yaml, .plan, .waypoints.")],
+    force: Annotated[bool, typer.Option("--force", help="Replace OUT if it exists.")] = False,
+) -> None:
+    """Write a mission in another format; what that format cannot say is told."""
+    from companion.cli.convert import convert_mission
+
+    raise typer.Exit(convert_mission(source, target, force))
 
 
 @app.command()

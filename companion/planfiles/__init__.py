@@ -1,1 +1,32 @@
-"""Other people's mission files: QGroundControl's `.plan` and `QGC WPL 110`, read and written."""
+"""Plan files of ground stations: QGroundControl's `.plan` and `QGC WPL 110`, read and written.
+
+`is_plan_file` tells by the content; `read` gives a `plan.Plan`, and `plan.mission_document` what a mission file would
+say. `items` holds what each item means. Latitude and longitude in degrees, altitudes in metres.
+"""
+
+from companion.errors import MissionError
+from companion.planfiles.plan import Plan
+from companion.planfiles.qgc import read_plan
+from companion.planfiles.wpl import MAGIC, read_wpl
+
+__all__ = ["Plan", "is_plan_file", "read"]
+
+
+def is_plan_file(data: bytes) -> bool:
+    """Whether a file's bytes are one of the formats of ground stations, rather than YAML."""
+    head = data[:200].removeprefix(b"\xef\xbb\xbf").lstrip()
+    return head.startswith(MAGIC[:7].encode()) or (head.startswith(b"{") and b'"fileType"' in data)
+
+
+def read(data: bytes, file: str) -> Plan:
+    """The plan of a file's bytes.
+
+    Raises
+    ------
+    MissionError : it cannot be read.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise MissionError(file, [f"byte {error.start}: not UTF-8 text"]) from error
+    return read_plan(text, file) if text.lstrip().startswith("{") else read_wpl(text, file)

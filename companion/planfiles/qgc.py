@@ -1,0 +1,191 @@
+"""QGroundControl's `.plan`: JSON with a mission, a geofence and rally points.
+
+https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/plan.html. Whatever this program does not know is
+kept: the parsed document is written back with only the items, the speed and the fence put in their places.
+"""
+
+import copy
+import json
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from companion.errors import MissionError
+from companion.geodesy import Geodetic
+from companion.planfiles.items import MOST_ITEMS, NAN, Item
+from companion.planfiles.plan import Plan
+
+MOST_DEPTH = 64
+"""Of nested lists and objects."""
+
+
+def read_plan(text: str, file: str) -> Plan:
+    """The plan of a file's text.
+
+    Raises
+    ------
+    MissionError : it is not one, or has an item that is not simple (a survey, say), by its name.
+    """
+    document = _parsed(text, file)
+    mission = document.get("mission")
+    if document.get("fileType") != "Plan" or not isinstance(mission, dict):
+        raise MissionError(file, [f"fileType: found {document.get('fileType')!r}, expected 'Plan' with a mission"])
+    listed = mission.get("items")
+    if not isinstance(listed, list) or len(listed) > MOST_ITEMS:
+        raise MissionError(file, [f"mission.items: expected a list of at most {MOST_ITEMS}"])
+    items: list[Item] = []
+    problems: list[str] = []
+    for index, entry in enumerate(listed):
+        found = _item(entry)
+        if isinstance(found, str):
+            problems.append(f"mission.items.{index}: {found}")
+        else:
+            items.append(found)
+    home = mission.get("plannedHomePosition")
+    if not (isinstance(home, list) and len(home) == 3 and all(map(_is_number, home))):
+        problems.append("mission.plannedHomePosition: expected [latitude, longitude, altitude]")
+        home = [0.0, 0.0, 0.0]
+    fence, wrong = _fence(document.get("geoFence"))
+    problems += wrong
+    if problems:
+        raise MissionError(file, problems)
+    hover: Any = mission.get("hoverSpeed")
+    speed = float(hover) if _is_number(hover) and 0.1 <= float(hover) <= 100.0 else None
+    return Plan(items, Geodetic(*map(float, home)), first=0, fence=fence, speed=speed, document=document)
+
+
+def write_plan(
+    items: Sequence[Item], home: Geodetic, speed: float, fence: dict[str, Any] | None, kept: dict[str, Any] | None
+) -> str:
+    """A file's text.
+
+    Parameters
+    ----------
+    fence : areas with `latitude` and `longitude`, as the key `fence` of a mission file; None: as `kept` has it.
+    kept : the document of a plan that was read: everything in it but our items stays as it is.
+    """
+    document = copy.deepcopy(kept) if kept else _empty()
+    mission = document["mission"]
+    mission["items"] = [_entry(item, number) for number, item in enumerate(items, start=1)]
+    if not kept:
+        mission["hoverSpeed"] = speed
+        mission["plannedHomePosition"] = list(home)
+    if fence is not None:
+        document["geoFence"] = _geofence(fence)
+    return json.dumps(document, indent=4, ensure_ascii=False) + "\n"
+
+
+def _parsed(text: str, file: str) -> dict[str, Any]:
+    depth = deepest = 0
+    for character in text:
+        depth += (character in "[{") - (character in "]}")
+        deepest = max(deepest, depth)
+    if deepest > MOST_DEPTH:
+        raise MissionError(file, [f"found {deepest} levels of nesting, expected at most {MOST_DEPTH}"])
+    try:
+        document = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise MissionError(file, [f"line {error.lineno}: not JSON: {error.msg}"]) from error
+    except ValueError as error:
+        raise MissionError(file, [f"not JSON: {error}"]) from error
+    if not isinstance(document, dict):
+        raise MissionError(file, ["line 1: expected a JSON object with fileType and mission"])
+    return document
+
+
+def _item(entry: Any) -> Item | str:
+    """One of `mission.items`, or what is wrong with it."""
+    if not isinstance(entry, dict):
+        return "expected an object"
+    if entry.get("type") != "SimpleItem":
+        kind = entry.get("complexItemType") or entry.get("type")
+        return f"found {entry.get('type')} {kind!r}, which is not flown: expected SimpleItem"
+    command, frame, params = entry.get("command"), entry.get("frame"), entry.get("params")
+    if type(command) is not int or type(frame) is not int or not 0 <= command <= 65_535 or not 0 <= frame <= 255:
+        return f"found command {command!r} and frame {frame!r}, expected whole numbers"
+    if not (isinstance(params, list) and len(params) == 7 and all(p is None or _is_number(p) for p in params)):
+        return "params: expected seven numbers or null"
+    p1, p2, p3, p4, x, y, z = (NAN if p is None else float(p) for p in params)
+    return Item(command, frame, (p1, p2, p3, p4, x, y, z), extra=entry)
+
+
+def _entry(item: Item, number: int) -> dict[str, Any]:
+    """An item as the file has it; one that was read keeps its other keys, and its params where they are the same."""
+    params: list[float | None] = [None if math.isnan(p) else p for p in item.params]
+    known = item.extra if item.extra.get("type") == "SimpleItem" else {}
+    if known and [None if p is None else float(p) for p in known["params"]] == params:
+        params = known["params"]
+    base: dict[str, Any] = known or {"autoContinue": True, "doJumpId": number, "type": "SimpleItem"}
+    return {**base, "command": item.command, "frame": item.frame, "params": params}
+
+
+def _fence(found: Any) -> tuple[dict[str, Any] | None, list[str]]:
+    """The geofence as the key `fence` of a mission file, and what is wrong with it."""
+    if not isinstance(found, dict):
+        return None, []
+    include: list[dict[str, Any]] = []
+    exclude: list[dict[str, Any]] = []
+    problems: list[str] = []
+    for index, polygon in enumerate(found.get("polygons") or []):
+        corners = polygon.get("polygon") if isinstance(polygon, dict) else None
+        if not (isinstance(corners, list) and all(map(_is_pair, corners)) and 3 <= len(corners) <= 500):
+            problems.append(f"geoFence.polygons.{index}: expected 3 to 500 corners [latitude, longitude]")
+            continue
+        area: dict[str, Any] = {"corners": [{"latitude": float(a), "longitude": float(b)} for a, b, *_ in corners]}
+        (include if polygon.get("inclusion", True) else exclude).append(area)
+    for index, entry in enumerate(found.get("circles") or []):
+        circle = entry.get("circle") if isinstance(entry, dict) else None
+        if not (isinstance(circle, dict) and _is_pair(circle.get("center")) and _is_number(circle.get("radius"))):
+            problems.append(f"geoFence.circles.{index}: expected a center and a radius")
+            continue
+        a, b, *_ = circle["center"]
+        area = {"circle": {"latitude": float(a), "longitude": float(b), "radius": float(circle["radius"])}}
+        (include if entry.get("inclusion", True) else exclude).append(area)
+    if len(include) > 1:
+        problems.append(f"geoFence: found {len(include)} areas to stay in, expected at most one")
+    if not (include or exclude):
+        return None, problems
+    return {"include": include, "exclude": exclude}, problems
+
+
+def _geofence(fence: dict[str, Any]) -> dict[str, Any]:
+    polygons, circles = [], []
+    for inclusion, areas in ((True, fence.get("include", [])), (False, fence.get("exclude", []))):
+        for area in areas:
+            if "corners" in area:
+                corners = [[c["latitude"], c["longitude"]] for c in area["corners"]]
+                polygons.append({"inclusion": inclusion, "polygon": corners, "version": 1})
+            else:
+                c = area["circle"]
+                centre = {"center": [c["latitude"], c["longitude"]], "radius": c["radius"]}
+                circles.append({"circle": centre, "inclusion": inclusion, "version": 1})
+    return {"circles": circles, "polygons": polygons, "version": 2}
+
+
+def _empty() -> dict[str, Any]:
+    """A plan with nothing in it; firmware and vehicle type 2 and 12 are a multirotor with PX4, altitudes from home."""
+    return {
+        "fileType": "Plan",
+        "geoFence": {"circles": [], "polygons": [], "version": 2},
+        "groundStation": "QGroundControl",
+        "mission": {
+            "cruiseSpeed": 15,
+            "firmwareType": 12,
+            "globalPlanAltitudeMode": 1,
+            "hoverSpeed": 5,
+            "items": [],
+            "plannedHomePosition": [0.0, 0.0, 0.0],
+            "vehicleType": 2,
+            "version": 2,
+        },
+        "rallyPoints": {"points": [], "version": 2},
+        "version": 1,
+    }
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, list) and len(value) >= 2 and all(map(_is_number, value[:2]))

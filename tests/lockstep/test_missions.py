@@ -1,0 +1,179 @@
+"""Missions of every kind of step, and orders in flight: whole flights in memory."""
+
+import numpy as np
+import pytest
+
+from companion.phases import Phase
+from companion.seam import Order, Reference
+
+FIELD = """\
+name: field
+vehicle:
+  start: {north: 3, east: 3}
+world:
+  bounds: {north: [0, 40], east: [0, 30], altitude: [0, 8]}
+"""
+TOUR = (
+    FIELD
+    + """\
+steps:
+  - takeoff: {altitude: 2}
+  - via: [{north: 8, east: 10, altitude: 2}]
+  - goto: {north: 14, east: 5, altitude: 3}
+    speed: 2
+  - orbit: {north: 18, east: 5, altitude: 3, radius: 3, turns: 1.25, clockwise: false}
+  - yaw: {heading_deg: 120, rate_deg: 60}
+  - wait: {for: order}
+  - return: {altitude: 2}
+"""
+)
+STRAIGHT = FIELD + "steps:\n  - takeoff: {altitude: 2}\n  - goto: {north: 37, east: 3, altitude: 2}\n  - land\n"
+
+
+def path(flight):
+    """(time [s], position (n, 3), velocity, acceleration, yaw) of every reference."""
+    rows = [(t.now_us / 1e6, o) for t in flight.ticks for o in t.outputs if isinstance(o, Reference)]
+    names = ("position_m", "velocity_m", "acceleration_m")
+    return (
+        np.array([t for t, _ in rows]),
+        *(np.array([getattr(r, n) for _, r in rows]) for n in names),
+        np.array([r.yaw for _, r in rows]),
+    )
+
+
+def smooth(flight):
+    """No jump: each of position, velocity and acceleration changes as slowly as its derivative's limit allows."""
+    t, p, v, a, _ = path(flight)
+    limits, dt = flight.companion.mission.limits, np.diff(t)[:, None]
+    assert np.linalg.norm(np.diff(p, axis=0), axis=1).max() <= limits.speed * dt.max() * 1.001
+    assert np.linalg.norm(np.diff(v, axis=0), axis=1).max() <= limits.acceleration * dt.max() * 1.3
+    assert np.linalg.norm(np.diff(a, axis=0), axis=1).max() <= limits.jerk * dt.max() * 1.5
+    moved = np.diff(p, axis=0) - (v[1:] + v[:-1]) / 2 * dt
+    assert np.abs(moved).max() < 1e-3  # the velocity told is that of the position
+
+
+def orders(*given):
+    """An operator who gives each order at the first tick at which its condition holds."""
+    waiting = list(given)
+
+    def operator(companion, now_us):
+        if waiting and waiting[0][0](companion, now_us):
+            return waiting.pop(0)[1]
+        return None
+
+    return operator
+
+
+def after(seconds):
+    """So many seconds after the first goto began."""
+    began = []
+
+    def condition(companion, now_us):
+        if companion.phase is Phase.FLYING and companion.itinerary.step.kind == "goto" and not began:
+            began.append(now_us)
+        return bool(began) and now_us >= began[0] + seconds * 1e6
+
+    return condition
+
+
+def waiting(companion, now_us):
+    return companion.phase is Phase.FLYING and companion.itinerary.step.kind == "wait"
+
+
+def test_via_orbit_yaw_wait_and_return_are_flown_in_order_and_the_flight_ends_where_it_began(fly):
+    flight = fly(TOUR, operator=orders((waiting, Order("resume"))))
+    assert flight.verdict.ok, flight.verdict.failure
+    steps = [note.split(": ")[1] for note in flight.notes if note.startswith("step ") and "planned" not in note]
+    assert steps[-6:] == ["goto", "orbit", "yaw", "wait", "return", "land"]
+    _, p, v, _, yaw = path(flight)
+    assert np.linalg.norm(p - (8, 10, -2), axis=1).min() < 0.05
+    assert np.linalg.norm(p - (14, 5, -3), axis=1).min() < 1e-3
+    on_circle = np.abs(np.hypot(p[:, 0] - 18, p[:, 1] - 5) - 3) < 1e-6
+    around = np.unwrap(np.arctan2(p[on_circle, 1] - 5, p[on_circle, 0] - 18))
+    assert around[-1] - around[0] == pytest.approx(-2.5 * np.pi, abs=0.02)  # anticlockwise from above
+    assert np.rad2deg(yaw[-1]) == pytest.approx(120)
+    np.testing.assert_allclose(p[-1], (3, 3, -2), atol=1e-6)
+    going = slice(0, int(np.argmin(np.linalg.norm(p - (14, 5, -3), axis=1))))
+    assert np.linalg.norm(v[going], axis=1).max() <= 2.0 + 1e-9
+    smooth(flight)
+
+
+def test_a_hold_at_3_m_per_s_comes_to_rest_within_2_m_of_the_way_and_resume_goes_on_without_a_jump(fly):
+    flight = fly(STRAIGHT, operator=orders((after(4.0), Order("hold")), (after(9.0), Order("resume"))))
+    assert flight.verdict.ok, flight.verdict.failure
+    t, p, v, _, _ = path(flight)
+    speed = np.linalg.norm(v, axis=1)
+    asked = next(tick.now_us / 1e6 for tick in flight.ticks for o in tick.outputs if getattr(o, "text", "") == "hold")
+    at = int(np.argmin(np.abs(t - asked)))
+    assert speed[at] > 2.9
+    rest = at + int(np.argmax(speed[at:] < 1e-9))
+    assert np.linalg.norm(p[rest] - p[at]) < 2.0
+    assert t[rest] - t[at] < 1.6
+    assert speed[rest : rest + 100].max() < 1e-9
+    truth = flight.verdict.track.position_m
+    assert truth[:, 0].max() == pytest.approx(37, abs=0.3)
+    smooth(flight)
+
+
+def test_goto_flies_to_the_place_and_holds_there_and_resume_goes_back_to_where_the_mission_was_left(fly):
+    flight = fly(
+        STRAIGHT,
+        operator=orders((after(4.0), Order("goto", (12.0, 20.0, 4.0))), (after(20.0), Order("resume"))),
+    )
+    assert flight.verdict.ok, flight.verdict.failure
+    _, p, _, _, _ = path(flight)
+    there = np.linalg.norm(p - (12, 20, -4), axis=1) < 1e-6
+    assert there.sum() > 100
+    assert any("holding until ordered on" in note for note in flight.notes)
+    np.testing.assert_allclose(p[-1], (37, 3, -2), atol=1e-6)
+    smooth(flight)
+
+
+@pytest.mark.parametrize(("order", "place"), [("return", (3, 3)), ("abort", None)])
+def test_return_and_abort_come_to_rest_first_and_land(fly, order, place):
+    flight = fly(STRAIGHT, operator=orders((after(4.0), Order(order))))
+    assert flight.companion.phase is Phase.DONE
+    assert f"cut short in step 1 by the order to {order}" in flight.verdict.failure
+    _, p, v, _, _ = path(flight)
+    assert np.linalg.norm(v[-1]) < 1e-9
+    if place is not None:
+        np.testing.assert_allclose(p[-1][:2], place, atol=1e-6)
+    smooth(flight)
+
+
+def test_an_order_that_cannot_be_carried_out_is_refused_with_its_reason_and_changes_nothing(fly):
+    fenced = STRAIGHT.replace("steps:", "fence: {include: [{circle: {north: 20, east: 3, radius: 25}}]}\nsteps:")
+    flight = fly(
+        fenced,
+        operator=orders(
+            (after(2.0), Order("goto", (20.0, 29.0, 2.0))),
+            (after(2.5), Order("goto", (20.0, 27.5, 2.0))),
+            (after(3.0), Order("goto", (20.0, 10.0, 7.9))),
+            (after(3.5), Order("resume")),
+        ),
+    )
+    assert flight.verdict.ok, flight.verdict.failure
+    refused = [note for note in flight.notes if note.startswith(("goto: ", "resume: "))]
+    assert "north 20, east 29, altitude 2 is 1.0" in refused[0]
+    assert "m outside the fence" in refused[0]
+    assert "m too near the fence (it keeps 0.75 m)" in refused[1]
+    assert "0.65 m too near the bounds" in refused[2]
+    assert refused[3] == "resume: nothing is held"
+
+
+def test_no_reference_ever_leaves_the_fence_and_the_way_leads_round_what_is_excluded(fly):
+    fence = (
+        "fence:\n"
+        "  include: [{corners: [{north: -5, east: -5}, {north: 45, east: -5}, {north: 45, east: 12}, "
+        "{north: -5, east: 12}]}]\n"
+        "  exclude: [{corners: [{north: 18, east: -9}, {north: 20, east: -9}, {north: 20, east: 7}, "
+        "{north: 18, east: 7}]}, {circle: {north: 30, east: 4, radius: 2}}]\n"
+        "  ceiling: 4\n"
+    )
+    flight = fly(STRAIGHT.replace("steps:", fence + "steps:"))
+    assert flight.verdict.ok, flight.verdict.failure
+    _, p, _, _, _ = path(flight)
+    geofence = flight.companion.mission.geofence()
+    assert min(geofence.inside(q) for q in p) >= 0.75 - 1e-9
+    assert p[:, 1].max() > 7.7
+    assert flight.verdict.min_clearance_m is None  # a fence is nothing to touch
