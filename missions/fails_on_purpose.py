@@ -1,4 +1,4 @@
-"""A test that fails, to see what a failure looks like: `pytest missions/fails_on_purpose.py`. By itself pytest skips it."""
+"""A test that fails, to see what a failure looks like: `pytest missions/fails_on_purpose.py`; else pytest skips it."""
 
 import pytest
 
