@@ -24,9 +24,10 @@ from typing import Any
 import numpy as np
 
 from companion.autopilots import AUTOPILOTS
-from companion.autopilots.base import Autopilot
+from companion.autopilots.base import Autopilot, stream_requests
 from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome, ParameterWrite, is_for
+from companion.geodesy import to_local
 from companion.ground.router import Router
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
@@ -48,6 +49,8 @@ HEARTBEAT_US = 1_000_000
 VEHICLE_SILENT_US = 3_000_000
 BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGING, Phase.ARMING)
 """Phases in which giving up costs nothing."""
+START_SLACK = 3.0
+"""How far from where its file says a vehicle may stand, where the mission's place on the earth is known [m]."""
 PARAMETER_WAIT_US, PARAMETER_REPEAT_US = 2_000_000, 500_000
 STREAMS_AGAIN_US = 5_000_000
 """Without a position for so long while it is being prepared, the vehicle is asked for its streams again."""
@@ -372,6 +375,8 @@ class Companion:
             for wish in self.autopilot.parameters_to_set(self.telemetry):
                 self._queue.append(ParameterWrite(wish.name, wish.value, wish.kind, wish.shown))
         reasons = tuple(self.autopilot.not_ready(now_us, self.telemetry))
+        if self.mission.origin is not None and self.telemetry.global_e7 is None:
+            reasons = (*reasons, "no global position")
         if reasons != self._readiness:
             self._readiness = reasons
             out.append(Note(Level.INFO, "vehicle ready" if not reasons else f"waiting: {', '.join(reasons)}"))
@@ -522,17 +527,19 @@ class Companion:
             case Phase.PREPARING:
                 self._boots = self.telemetry.boots
                 self._queue = list(self.autopilot.stream_requests())
+                if self.mission.origin is not None:
+                    self._queue += stream_requests({mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0})
                 self._streams_due_us = now_us + STREAMS_AGAIN_US
                 self._parameters_judged = False
                 self.telemetry.parameters = {name: b"" for name in self.autopilot.parameters_wanted()}
                 self._read_parameters(now_us, out)
             case Phase.PLANNING:
-                self.origin_n = self.telemetry.position_n - np.array(self.mission.start_m())
+                misplaced = self._fix_frame()
                 self.itinerary.yaw = self.telemetry.yaw
                 self.seeing.begin()
                 self._streaming_us = now_us
                 out.extend(Note(Level.WARNING, text) for text in self.autopilot.warnings(self.telemetry))
-                self._plan_refusal = self.itinerary.obstruction()
+                self._plan_refusal = misplaced or self.itinerary.obstruction()
                 out.extend([] if self._plan_refusal else self.itinerary.wanted())
             case Phase.ARMING:
                 self._command = self.autopilot.arm()
@@ -557,6 +564,20 @@ class Companion:
             case Phase.LANDING:
                 self._came_down = False
                 self._command = self._way_down()
+
+    def _fix_frame(self) -> str:
+        """Fix the mission frame in the vehicle's local frame: why it cannot stand where it does, or nothing."""
+        start, origin = np.array(self.mission.start_m()), self.mission.geodetic_origin()
+        away = 0.0
+        if origin is not None and self.telemetry.global_e7 is not None:
+            latitude, longitude, _ = self.telemetry.global_e7
+            stands = np.array([*to_local(origin, latitude * 1e-7, longitude * 1e-7), 0.0])
+            away = float(np.linalg.norm(stands - start))
+            self.itinerary.stand(stands)
+        self.origin_n = self.telemetry.position_n - self.itinerary.start_m
+        if away <= START_SLACK or self.mission.vehicle.start.anywhere:
+            return ""
+        return f"the vehicle stands {away:.1f} m from vehicle.start, expected within {START_SLACK:g} m"
 
     def _way_down(self) -> Command:
         return self.autopilot.go_home() if self._going_home else self.autopilot.land()

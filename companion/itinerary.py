@@ -62,6 +62,11 @@ class Itinerary:
     def __post_init__(self) -> None:
         self.stand(np.array(self.mission.start_m()))
 
+    @property
+    def start_m(self) -> FloatArray:
+        """Where the flight begins (3,)."""
+        return self._start
+
     def stand(self, start_m: FloatArray) -> None:
         """Lay the steps out from where the vehicle stands (3,); before `wanted`."""
         self._start = start_m

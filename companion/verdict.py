@@ -129,7 +129,7 @@ class FlightMeter:
 
     def truth_track(self) -> Track | None:
         """The flight as it was; None when the vehicle does not tell, or never flew."""
-        start = np.array(self._companion.mission.start_m())
+        start = self._companion.itinerary.start_m
 
         def to_mission_frame(rows: FloatArray) -> FloatArray:
             ned = local_ned(rows[:, 1], rows[:, 2], rows[:, 3])

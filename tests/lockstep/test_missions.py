@@ -5,6 +5,8 @@ import pytest
 
 from companion.phases import Phase
 from companion.seam import Order, Reference
+from wire.datagram import Datagram
+from wire.dialect import mavlink
 
 FIELD = """\
 name: field
@@ -177,3 +179,49 @@ def test_no_reference_ever_leaves_the_fence_and_the_way_leads_round_what_is_excl
     assert min(geofence.inside(q) for q in p) >= 0.75 - 1e-9
     assert p[:, 1].max() > 7.7
     assert flight.verdict.min_clearance_m is None  # a fence is nothing to touch
+
+
+def placed(start):
+    """A flight from a place on the earth to another; the bundled vehicle stands where `start` says."""
+    return (
+        "name: placed\norigin: {latitude: 47.397742, longitude: 8.545594, altitude: 488}\n"
+        f"vehicle: {{start: {start}}}\n"
+        "world: {bounds: {north: [-40, 40], east: [-40, 40], altitude: [0, 8]}}\n"
+        "steps:\n  - takeoff: {altitude: 2}\n"
+        "  - goto: {latitude: 47.39787, longitude: 8.545594, altitude: 2}\n  - land\n"
+    )
+
+
+def test_a_mission_with_an_origin_is_flown_from_where_the_vehicle_is_found_to_the_place_on_the_earth(fly):
+    flight = fly(placed("{north: -3, east: 5}"))
+    assert flight.verdict.ok, flight.verdict.failure
+    _, p, _, _, _ = path(flight)
+    np.testing.assert_allclose(p[0][:2], (-3, 5), atol=1.0)  # within what its GPS says
+    np.testing.assert_allclose(p[-1][:2], ((47.39787 - 47.397742) * 111_200, 0.0), atol=0.05)
+
+
+def test_a_vehicle_found_elsewhere_than_its_file_says_does_not_fly_unless_it_may_be_anywhere(fly):
+    class Elsewhere:
+        """The vehicle, told to everybody 0.0001 degrees farther north."""
+
+        def __init__(self, vehicle):
+            self.vehicle, self.TICK_US = vehicle, vehicle.TICK_US
+
+        def step(self, now_us, inputs):
+            return [self.moved(d) for d in self.vehicle.step(now_us, inputs)]
+
+        def moved(self, d):
+            if d.data[7:10] != (33).to_bytes(3, "little"):
+                return d
+            mav = mavlink.MAVLink(None)
+            message = mav.decode(bytearray(d.data))
+            message.lat += 1000
+            mav.srcSystem, mav.srcComponent = 1, 1
+            return Datagram(d.link, bytes(message.pack(mav)), d.peer)
+
+    refused = fly(placed("{north: 0, east: 0}"), between=Elsewhere)
+    assert refused.companion.phase is Phase.FAILED
+    assert "the vehicle stands 11." in refused.verdict.failure
+    flown = fly(placed("{north: 0, east: 0, anywhere: true}"), between=Elsewhere)
+    assert flown.verdict.ok, flown.verdict.failure
+    np.testing.assert_allclose(path(flown)[1][0], (11.12, 0, 0), atol=0.5)
