@@ -34,6 +34,8 @@ LADDER = (1.0, 0.85, 0.7)
 """Parts of the radius with which a plan from scratch is tried in turn, where noise has put cells within the radius."""
 TIGHTEST = 0.03
 """Hull to what is seen, at least [m]; the guard keeps the same."""
+AWAY_SPARE = 0.1
+"""What a step out of the radius may come nearer than where it begins, by the newest map [m]."""
 AGAIN_US = 500_000
 """Between two plans from scratch."""
 PATIENCE_US = 1_000_000
@@ -204,9 +206,10 @@ class Replanning:
         ahead_s = 2e-6 * self._period_us + limits.speed / limits.acceleration + limits.acceleration / limits.jerk
         return self._clear(chosen, boundary, boundary + round(ahead_s * 1e6)) == math.inf
 
-    def _clear(self, flown: Flown, from_us: int, until_us: int | None = None) -> float:
+    def _clear(self, flown: Flown, from_us: int, until_us: int | None = None, radius: float | None = None) -> float:
         until = end_us(flown) if until_us is None else until_us
-        return clear_for(flown, from_us, until, self._sight.map, self._sight.tracks.movers(), self._hull)
+        keep = self._hull if radius is None else radius
+        return clear_for(flown, from_us, until, self._sight.map, self._sight.tracks.movers(), keep)
 
     def _joins(self, flown: Flown, successor: Flown) -> bool:
         if successor is flown:
@@ -298,7 +301,16 @@ class Replanning:
         self._cold = self._cold_answer = None
         self._cold_us = boundary + AGAIN_US
         chosen = replace(answer.flown, start_us=boundary)
-        if not self._joins(flown, chosen) or not self._passes(chosen, boundary):
+        if not self._joins(flown, chosen):
+            return None
+        if not chosen.to_goal:  # a step out of the radius of what is near
+            self._cold_us = boundary
+            near = min(self._hull, answer.clearance - AWAY_SPARE)
+            if self._clear(chosen, boundary, radius=near) < math.inf:
+                return None
+            self._fresh = True
+            return chosen
+        if not self._passes(chosen, boundary):
             return None
         self._fresh, self._backup = True, None
         self.switches += 1

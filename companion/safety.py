@@ -170,10 +170,6 @@ def _doubted(w: Watch) -> str:
     return f"the estimator rejects {' and '.join(w.rejected)}" if w.rejected else ""
 
 
-def _no_way(w: Watch) -> str:
-    return w.no_way
-
-
 def _at_the_fence(w: Watch) -> str:
     return "too near the fence" if w.fence_m is not None and w.fence_m < 0.0 else ""
 
@@ -201,7 +197,6 @@ SAFETY: tuple[Rule, ...] = (
     Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
     Rule("position late", Action.HOLD, None, _MISSION, 0.0, _position_late),
     Rule("estimate doubted", Action.HOLD, None, _MISSION, 2.0, _doubted),
-    Rule("no way", Action.HOLD, None, _MISSION, 0.0, _no_way),
     Rule("at the fence", Action.HOLD, None, _MISSION, 0.0, _at_the_fence),
 )
 

@@ -110,7 +110,7 @@ def _fly(
     with ExitStack() as stack:
         with _open(endpoints):
             pass  # a busy port is told before the kernels are compiled
-        planning = WorkerPlanning(mission.planner_world())
+        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses())
         stack.callback(planning.close)
         if not _warm(mission, planning, operator, out):
             raise CompanionError("stopped before the flight began")

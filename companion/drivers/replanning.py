@@ -1,24 +1,27 @@
 """Answering `ReplanWanted`: the desk that keeps a `planner.replan.Replanner` and the world it plans in.
 
-The world is what the mission says and the cells that are taken now, within `CROP` of the vehicle. One desk answers in
+The world is what the mission says and the cells that are taken now, around the vehicle. One desk answers in
 turn; it is used in line by a lockstep, and in a process of its own over UDP. A plan from scratch (`cold`) may take a
 second, so over UDP another desk, in another process, answers those.
 
 Times are told to the planner from the first question on, so that what a float loses does not grow with the epoch.
 """
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
 from companion.seam import FloatArray, Flown, MapView, ReplanReady, ReplanWanted
 from planner import MovingSphere, PlannerError, PointCloud, VoxelGrid, World, plan
-from planner.errors import EndpointError
+from planner.errors import EndpointError, StartInCollision
 from planner.replan import Flight, Kind, Replanner, Settings
 from planner.voxels import MARGIN
 
-CROP = 12.0
-"""Cells farther than this from the vehicle are left out [m]: a field costs time with its size."""
+CROP, FAR_CROP = 9.0, 15.0
+"""Cells farther than this from the vehicle are left out [m], where time is short and where it is not."""
+AWAY, AWAY_DIRECTIONS, AWAY_SPARE = (0.1, 0.2, 0.3, 0.45, 0.6), 16, 0.03
+"""A vehicle that rests too near to something steps out of it: how far [m], in how many directions, to spare [m]."""
 RIM = int(MARGIN)
 """Free cells kept around the taken ones: outside its lattice a field tells less."""
 
@@ -40,7 +43,8 @@ class ReplanDesk:
         """What to fly; a planner's refusal is an answer too."""
         try:
             if wanted.map is not None:
-                self._world = with_cells(self._known, wanted.map, _place(wanted))
+                reach = FAR_CROP if wanted.cold else CROP
+                self._world = with_cells(self._known, wanted.map, _place(wanted), reach)
             return self._from_scratch(wanted) if wanted.cold else self._decide(wanted)
         except (PlannerError, ValueError) as error:
             reason = f"{type(error).__name__}: {error}"
@@ -93,11 +97,37 @@ class ReplanDesk:
 
     def _from_scratch(self, wanted: ReplanWanted) -> ReplanReady:
         s = wanted.flown.trajectory.state((wanted.switch_us - wanted.flown.start_us) / 1e6)
-        made = plan(self._world, s.position, wanted.goal_m, wanted.limits, wanted.radius, seed=wanted.seed)
+        try:
+            made = plan(self._world, s.position, wanted.goal_m, wanted.limits, wanted.radius, seed=wanted.seed)
+        except StartInCollision:
+            away = self._retreat(wanted, s.position)
+            if away is None:
+                raise
+            return away
         if not made.certified:
             raise ValueError("what was found is not proved")
         flown = Flown(made.trajectory, wanted.switch_us)
         return ReplanReady(wanted.request_id, Kind.SWITCH.value, flown, True, made.clearance, None, "from scratch")
+
+    def _retreat(self, wanted: ReplanWanted, start: FloatArray) -> ReplanReady | None:
+        """A little way straight out of the radius of what is near, never nearer to anything on it; None without one.
+
+        The nearest of some places around that keep the radius, level with the start.
+        """
+        world, radius = self._world, wanted.radius + AWAY_SPARE
+        share = np.linspace(0.0, 1.0, 11)[:, None]
+        here = float(world.distance(start[None])[0])
+        for step in AWAY:
+            for k in range(AWAY_DIRECTIONS):
+                angle = 2.0 * math.pi * k / AWAY_DIRECTIONS
+                end = start + step * np.array([math.cos(angle), math.sin(angle), 0.0])
+                distance = world.distance(start + share * (end - start))
+                if distance[-1] < radius or distance.min() < here - 0.01 or world.wall_distance(end[None])[0] < radius:
+                    continue
+                made = plan(World(world.bounds, ()), start, end, wanted.limits, 0.0)
+                flown = Flown(made.trajectory, wanted.switch_us, to_goal=False)
+                return ReplanReady(wanted.request_id, Kind.BACKUP.value, flown, True, here, None, "out of the radius")
+        return None
 
     def _seconds(self, at_us: int) -> float:
         return (at_us - self._base_us) / 1e6
@@ -110,8 +140,8 @@ class ReplanDesk:
         return Flown(flight.trajectory, self._base_us + round(flight.start_s * 1e6), flight.to_goal)
 
 
-def with_cells(known: World, seen: MapView, centre: FloatArray) -> World:
-    """The known world and the taken cells within `CROP` of a point, as one.
+def with_cells(known: World, seen: MapView, centre: FloatArray, reach: float) -> World:
+    """The known world and the taken cells within `reach` of a point [m] in the plane, as one.
 
     Where the known world has voxels itself, the cells are put on their lattice, each covering what it touches.
     """
@@ -124,7 +154,7 @@ def with_cells(known: World, seen: MapView, centre: FloatArray) -> World:
     runs = seen.runs.astype(np.float64)
     corners = [origin + size * np.column_stack((runs[:, 0], runs[:, 1], runs[:, 2]))]
     corners.append(origin + size * np.column_stack((runs[:, 0] + 1.0, runs[:, 1] + 1.0, runs[:, 3])))
-    near = np.abs(0.5 * (corners[0] + corners[1]) - centre)[:, :2].max(axis=1) <= CROP
+    near = np.abs(0.5 * (corners[0] + corners[1]) - centre)[:, :2].max(axis=1) <= reach
     near &= (corners[0][:, :2] < high[:2]).all(axis=1) & (corners[1][:, :2] > low[:2]).all(axis=1)
     near &= (corners[0][:, 2] < high[2]) & (corners[1][:, 2] > low[2])
     if not near.any():

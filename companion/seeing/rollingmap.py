@@ -24,10 +24,10 @@ ShortArray = NDArray[np.int16]
 LongArray = NDArray[np.int64]
 ByteArray = NDArray[np.uint8]
 
-MISSES = 5
+MISSES = 3
 """Scans in a row that must look through a cell before it is free."""
-SPARED = 0.3
-"""The last part of a ray that frees nothing [m]; two cells at least."""
+SPARED = 1.5
+"""Cells at the end of a ray that it does not free."""
 STRIDE = 2.0
 """The window is moved when the vehicle is so far from its middle [m]."""
 KEPT = 3.0
@@ -160,13 +160,24 @@ class RollingMap:
         r, table = self.resolution, (self.low, self.high)
         changed = put_hits(points, *table, self._stamp, self._misses, self._mark, self.window, r, now_us, self._turn)
         known = ~np.isnan(scan.distance)
-        reach = np.where(hit, scan.distance - max(SPARED, 2.0 * r), scan.maximum)[known]
+        reach = np.where(hit, scan.distance - SPARED * r, scan.maximum)[known]
         changed += look_through(
             scan.position_m, np.ascontiguousarray(scan.directions[known]), reach, *table, self._misses, self._mark,
             self.window, r, self._turn, MISSES,
         )  # fmt: skip
         self.version += changed > 0
         return int(changed)
+
+    def here(self, position_m: FloatArray, radius: float) -> None:
+        """Free the cells whose middle is within the vehicle's own ball: where it is, nothing else can be."""
+        r, n = self.resolution, self.low.shape[0]
+        low, high = np.floor((position_m[:2] - radius) / r), np.floor((position_m[:2] + radius) / r)
+        i, j = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
+        inside = ((i + 0.5) * r - position_m[0]) ** 2 + ((j + 0.5) * r - position_m[1]) ** 2 < radius**2
+        a, b = i[inside].astype(np.int64) % n, j[inside].astype(np.int64) % n
+        if (self.high[a, b] > self.low[a, b]).any():
+            self.low[a, b] = self.high[a, b] = 0
+            self.version += 1
 
     def decay(self, now_us: int) -> None:
         """Forget what was not seen for long and is not near the path flown; once a second, whenever it is called."""

@@ -80,6 +80,7 @@ class Sight:
         self.jumped = False
         self._world = world if world.obstacles else None
         self._mover_radius = sensing.mover_radius
+        self._hull = mission.vehicle.radius
         self._ground_z = bottom - GROUND
         self._poses: deque[_At] = deque(maxlen=POSES)
         self._anchor: _Anchor | None = None
@@ -142,6 +143,7 @@ class Sight:
         if scan is None:
             return False
         self.map.add(now_us, self._unknown(now_us, scan))
+        self.map.here(self._poses[-1].pose.position_m, self._hull)
         self.scans += 1
         return True
 
