@@ -5,8 +5,8 @@ A figure of eight of amplitudes 4 x 2 m, x = 4 sin a, y = 2 sin 2a, its speed at
 position, velocity and acceleration come every tick (4 ms), and truth is held against the setpoint of the same moment.
 Setpoints are in the estimator's frame. Its origin is told as latitude and longitude, and truth is moved by where that
 is, so the choice of an origin does not count, nor its error; heights are from where the vehicle stood by its own belief
-(the barometer's zero; the height's error is mostly its drift, 0.1 m). Receivers of 0.05 m and 0.4 m (and 0.1 m/s), 112
-ms late, with the estimator told of each. Every loop law gets the same flights.
+(the barometer's zero; its drift of 0.1 m is a part of the height's error). Receivers of 0.05 m and 0.4 m (and 0.1 m/s),
+112 ms late, with the estimator told of each. Every loop law gets the same flights.
 """
 
 import math
