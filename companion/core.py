@@ -527,6 +527,7 @@ class Companion:
             case Phase.PREPARING:
                 self._boots = self.telemetry.boots
                 self._queue = list(self.autopilot.stream_requests())
+                self._queue += stream_requests(self.seeing.streams_hz())
                 if self.mission.origin is not None:
                     self._queue += stream_requests({mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0})
                 self._streams_due_us = now_us + STREAMS_AGAIN_US

@@ -31,6 +31,10 @@ class Pose:
 class Seeing(Protocol):
     """Obstacles and movers, as sensors tell of them."""
 
+    def streams_hz(self) -> dict[int, float]:
+        """Messages it lives by, and how often a second."""
+        ...
+
     def begin(self) -> None:
         """The mission frame is known: places count from now on."""
         ...
@@ -77,6 +81,9 @@ class Ground(Protocol):
 
 class NothingSeen:
     """There are no sensors."""
+
+    def streams_hz(self) -> dict[int, float]:
+        return {}
 
     def begin(self) -> None:
         pass

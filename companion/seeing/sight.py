@@ -32,6 +32,9 @@ GROUND = 0.2
 JUMP = 0.5
 """A position that jumps by more than this between two messages has another origin [m]."""
 
+MOVERS_HZ = 100.0
+"""ADSB_VEHICLE tells of one mover after the other [Hz]."""
+
 _POSITION = mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED
 _ATTITUDE = mavlink.MAVLINK_MSG_ID_ATTITUDE
 _GLOBAL = mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT
@@ -85,6 +88,10 @@ class Sight:
         self._poses: deque[_At] = deque(maxlen=POSES)
         self._anchor: _Anchor | None = None
         self._placed = False  # the mission frame is known
+
+    def streams_hz(self) -> dict[int, float]:
+        """What to ask the vehicle for; one that has no such sensor refuses, or stays silent."""
+        return {RING: 10.0, _ADSB: MOVERS_HZ, _GLOBAL: 10.0}
 
     def begin(self) -> None:
         """The mission frame is fixed: what comes from now on counts."""
