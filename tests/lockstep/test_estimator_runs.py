@@ -188,7 +188,7 @@ def test_until_its_first_fault_a_flight_is_the_same_as_without() -> None:
 def test_the_same_faults_and_seed_give_the_same_flight() -> None:
     ends = []
     for _ in range(2):
-        run = Run(seed=11, faults=("gps:noise=2,2,3@10-14", "accel:noise=0.5@12", "baro:delay=0.4@11"))
+        run = Run(seed=11, faults=("gps:noise=2,2,3,0,0,0@10-14", "accel:noise=0.5@12", "baro:delay=0.4@11"))
         run.take_off()
         ends.append(run.stack._x.copy())
     np.testing.assert_array_equal(ends[0], ends[1])
