@@ -185,7 +185,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("mode taken", Action.HAND_OVER, Event.MODE_LOST, _FLOWN, 0.0, _taken),
     Rule("landing stopped", Action.HAND_OVER, Event.MODE_LOST, _LANDING, 0.0, _stopped_landing),
     Rule("silent", Action.WAIT, Event.VEHICLE_SILENT, _FLOWN, 0.0, _silent),
-    Rule("no position", Action.LAND, Event.LAND_ASKED, _FLOWN, 0.0, _no_position),
+    Rule("no position", Action.LAND, Event.LAND_ASKED, _FLOWN, 0.5, _no_position),  # not before one can have arrived
     Rule("no estimate", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _no_estimate),
     Rule("astray", Action.LAND, Event.LAND_ASKED, _MISSION, 1.0, _astray),
     Rule("stranded", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _stranded),

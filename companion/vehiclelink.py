@@ -67,7 +67,8 @@ class VehicleLink:
             if self.heard_us is None and self._is_autopilot(packet):
                 self.system_id, self.peer, self.heard_us = packet.system_id, datagram.peer, now_us
             if self.is_vehicle(packet, datagram.peer):
-                self.heard_us = now_us
+                if packet.message_id in mavlink.mavlink_map:  # of others the checksum is not known: they may be noise
+                    self.heard_us = now_us
                 yield packet, True
             else:
                 self._count_foreign(packet, datagram.peer)
