@@ -27,8 +27,9 @@ from companion.autopilots import AUTOPILOTS
 from companion.autopilots.base import Autopilot, stream_requests
 from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome, ParameterWrite, is_for
-from companion.geodesy import to_local
+from companion.geodesy import Geodetic, to_local
 from companion.ground.router import Router
+from companion.ground.station import GroundStation
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
 from companion.mission import Mission
@@ -105,6 +106,8 @@ class Companion:
         self.seeing: Seeing = NothingSeen()
         self.replanning: Replanning = NothingReplanned()
         self.ground: Ground = NobodyAsks()
+        if config.ground_links:
+            self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
         self.router = Router(config.ground_links)
         if mission.senses():
             sight = Sight(mission)
@@ -178,6 +181,21 @@ class Companion:
         """Where the vehicle says it is, in the mission frame."""
         t = self.telemetry
         return Pose(flight_us, t.position_n - self.origin_n, t.velocity_n, t.roll, t.pitch, t.yaw)
+
+    def locate(
+        self, latitude: float, longitude: float, altitude: float, above_home: bool
+    ) -> tuple[float, float, float] | None:
+        """North, east and altitude [m] in the mission frame of a place on the earth [deg, m]; None before it is known.
+
+        From where the vehicle says it is in both frames. Altitudes above home count from where the flight began.
+        """
+        t = self.telemetry
+        if t.global_e7 is None or self.phase in BEFORE_FLIGHT:
+            return None
+        here, above_sea = t.position_n - self.origin_n, t.global_e7[2] * 1e-3
+        north, east = to_local(Geodetic(t.global_e7[0] * 1e-7, t.global_e7[1] * 1e-7), latitude, longitude)
+        high = altitude if above_home else altitude - above_sea - float(here[2])
+        return float(here[0]) + north, float(here[1]) + east, high
 
     # ---- 2. inputs ----------------------------------------------------------------------------------------------
 
@@ -528,7 +546,7 @@ class Companion:
                 self._boots = self.telemetry.boots
                 self._queue = list(self.autopilot.stream_requests())
                 self._queue += stream_requests(self.seeing.streams_hz())
-                if self.mission.origin is not None:
+                if self.mission.origin is not None or self.config.ground_links:
                     self._queue += stream_requests({mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0})
                 self._streams_due_us = now_us + STREAMS_AGAIN_US
                 self._parameters_judged = False

@@ -5,7 +5,7 @@ YAML that people write.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -200,6 +200,7 @@ class Mission(Model):
     sensing: Sensing | None = None
     expect: Expect = Expect()
 
+    _plan_items: tuple[Any, ...] = PrivateAttr(default=())
     _maps: dict[int, VoxelGrid | PointCloud] = PrivateAttr(default_factory=dict)  # by obstacle; see read_maps
     _world: World | None = PrivateAttr(default=None)
     _whole: World | None = PrivateAttr(default=None)
@@ -217,6 +218,15 @@ class Mission(Model):
         if self.vehicle.start.anywhere and self.origin is None:
             raise ValueError("found vehicle.start.anywhere, expected the key origin with it")
         return self
+
+    @property
+    def plan_items(self) -> tuple[Any, ...]:
+        """The items (`planfiles.Item`) of the ground station's plan that this mission was read from; else nothing."""
+        return self._plan_items
+
+    def keep_plan_items(self, items: Sequence[Any]) -> None:
+        """Remember the plan that it was read from."""
+        self._plan_items = tuple(items)
 
     def start_m(self) -> Vector:
         """Where the vehicle stands, in the mission frame."""

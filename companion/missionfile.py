@@ -95,6 +95,7 @@ def _of_plan(data: bytes, file: str) -> Mission:
         mission = to_mission(document, plan.home)
     except ValidationError as error:
         raise MissionError(file, [_problem(item, None).partition(": ")[2] for item in error.errors()]) from error
+    mission.keep_plan_items(plan.items)
     found = mission.beyond_the_fence()
     if found:
         raise MissionError(file, [f"{'.'.join(map(str, k))}: {text}" for k, text in found])
