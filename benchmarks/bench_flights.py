@@ -1,0 +1,166 @@
+"""Whole flights in lockstep, scored: `python -m benchmarks.bench_flights [known] [movers] [links] [--seeds N] [--jobs N]`.
+
+known : the worlds of `planner.families`, map known, both autopilots. A flight counts when it lands as planned at the
+    goal, keeps the clearance its mission asks of the plan to within what tracking costs, and tracks at p95 <= 0.25 m.
+movers : twenty balls of 0.3 to 0.5 m that cross the room at up to 2 m/s and are reflected by its walls; the vehicle
+    is told of none of them, hears ADSB_VEHICLE and sees by its obstacle sensor. Counted are touches, by the truth.
+links : the L-shaped wall over links with faults; counted is how the flights end.
+"""
+
+import argparse
+import math
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from companion.cli.worlds import mission_text
+from companion.testing.campaign import fly_all
+from companion.testing.spec import FlightResult, FlightSpec
+from companion.testing.wire import LinkFaults
+from planner.families import make
+
+FAMILIES = ("L", "H", "U", "Omega", "forest", "maze")
+CLEARANCE = {"maze": 0.1}
+"""Else what `companion worlds` writes: at 0.25 m a few mazes are walled off, as the planner proves."""
+TRACKING_M = 0.25
+L_SHAPE = Path(__file__).parents[1] / "missions" / "l_shape.yaml"
+AUTOPILOTS = ("px4", "ardupilot")
+LINKS = {
+    "30 % loss": LinkFaults(loss=0.3),
+    "20 % duplicates": LinkFaults(duplicate=0.2),
+    "reordering": LinkFaults(reorder=0.2),
+    "200 ms jitter": LinkFaults(jitter_ms=200),
+    "5 s blackout": LinkFaults(blackouts=((12.0, 17.0),)),
+    "another system shouting": LinkFaults(shouting=True),
+    "garbage, 50 a second": LinkFaults(garbage=50),
+    "all of it": LinkFaults(0.3, 0.2, 0.1, 200, ((12.0, 17.0),), 20, True),
+}
+
+
+def known(seeds: int, jobs: int) -> None:
+    """Item: the map is known."""
+    print(
+        "| family | autopilot | reached | least clearance m | asked | p95 m, worst | p95 m, median | CPU s a flight |"
+    )
+    print("|---|---|---|---|---|---|---|---|")
+    for family in FAMILIES:
+        texts, asked = {}, math.nan
+        for seed in seeds_that_are_open(family, seeds):
+            text = mission_text(family, seed, make(family, seed))
+            line = next(row for row in text.splitlines() if row.strip().startswith("clearance:"))
+            asked = CLEARANCE.get(family, float(line.split(":")[1].split("#")[0]))
+            texts[seed] = text.replace(line, f"  clearance: {asked}")
+        for autopilot in AUTOPILOTS:
+            specs = [FlightSpec(text.encode(), autopilot=autopilot, seed=seed) for seed, text in texts.items()]
+            results = list(fly_all(specs, jobs))
+            done = [r for r in results if r.phase == "done" and not r.failure]
+            p95 = [r.verdict.tracking_error_p95_m for r in done]
+            clear = min((r.min_clearance_m for r in done), default=math.nan)
+            cpu = np.mean([r.cpu_s for r in results])
+            row = f"| {family} | {autopilot} | {len(done)}/{len(results)} | {clear:.2f} | {asked:g} "
+            print(f"{row}| {max(p95):.3f} | {np.median(p95):.3f} | {cpu:.2f} |", flush=True)
+            failed(r for r in results if r.failure or not r.ok or r.verdict.tracking_error_p95_m > TRACKING_M)
+
+
+def seeds_that_are_open(family: str, count: int) -> list[int]:
+    """The first seeds from 1 on whose worlds are not walled off on purpose."""
+    found, seed = [], 0
+    while len(found) < count:
+        seed += 1
+        if not make(family, seed).closed:
+            found.append(seed)
+    return found
+
+
+def movers_text(seed: int, count: int = 20, speed: float = 2.0) -> str:
+    """A room of 24 x 20 x 4 m in which `count` balls cross the way, at speeds evenly from half of `speed` up to it."""
+    rng = np.random.default_rng([4, seed])
+    rows = []
+    while len(rows) < count:
+        radius = rng.uniform(0.3, 0.5)
+        place = rng.uniform([4.0, radius, radius + 0.3], [21.0, 20.0 - radius, 3.7 - radius])
+        angle, rate = rng.uniform(-math.pi, math.pi), rng.uniform(0.5 * speed, speed)
+        north, east, up = 0.5 * math.cos(angle), math.copysign(1.0, math.sin(angle)), 0.2 * rng.standard_normal()
+        north, east, up = (rate * v / math.hypot(north, east, up) for v in (north, east, up))
+        ball = f"north: {place[0]:.3f}, east: {place[1]:.3f}, altitude: {place[2]:.3f}, radius: {radius:.3f}"
+        rows.append(f"    - {{sphere: {{{ball}}}, velocity: {{north: {north:.3f}, east: {east:.3f}, up: {up:.3f}}}}}")
+    return f"""\
+name: movers {seed}
+vehicle: {{start: {{north: 2, east: 10}}}}
+world:
+  bounds: {{north: [0, 24], east: [0, 20], altitude: [0, 4]}}
+  movers:
+{chr(10).join(rows)}
+sensing: {{use: true, resolution: 0.2, clearance: 0.3, mover_radius: 0.5}}
+limits: {{speed: 3, acceleration: 6, jerk: 60}}
+steps:
+  - takeoff: {{altitude: 1.5}}
+  - goto: {{north: 22, east: 10, altitude: 1.5}}
+  - land
+"""
+
+
+def movers(seeds: int, jobs: int) -> None:
+    """Item: twenty movers that cross."""
+    print("| autopilot | flights | without a touch | landed at the goal | nearest m | median m | CPU s a flight |")
+    print("|---|---|---|---|---|---|---|")
+    for autopilot in AUTOPILOTS:
+        specs = [FlightSpec(movers_text(s).encode(), autopilot=autopilot, seed=s) for s in range(1, seeds + 1)]
+        results = list(fly_all(specs, jobs))
+        near = [math.nan if r.min_clearance_m is None else r.min_clearance_m for r in results]
+        clear, done = sum(n > 0.0 for n in near), sum(r.phase == "done" and not r.failure for r in results)
+        cpu = np.mean([r.cpu_s for r in results])
+        row = f"| {autopilot} | {len(results)} | {clear} | {done} | {np.nanmin(near):.2f} | {np.nanmedian(near):.2f} "
+        print(f"{row}| {cpu:.2f} |", flush=True)
+        failed(r for r in results if not r.ok)
+
+
+def links(seeds: int, jobs: int) -> None:
+    """Item: links with faults."""
+    print("| link | autopilot | flights | mission completed | otherwise ended by | seconds, median |")
+    print("|---|---|---|---|---|---|")
+    for name, faults in LINKS.items():
+        for autopilot in AUTOPILOTS:
+            specs = [
+                FlightSpec(L_SHAPE, autopilot=autopilot, seed=s, link=replace(faults, seed=s))
+                for s in range(1, seeds + 1)
+            ]
+            results = list(fly_all(specs, jobs))
+            done = [r for r in results if r.phase == "done" and not r.failure]
+            rest = Counter(r.failure or r.cause for r in results if r not in done)
+            ends = "; ".join(f"{n} x {text}" for text, n in rest.most_common(3))
+            seconds = np.median([r.simulated_s for r in results])
+            row = f"| {name} | {autopilot} | {len(results)} | {len(done)} | {ends or 'none'} "
+            print(f"{row}| {seconds:.1f} |", flush=True)
+
+
+def failed(results: Iterable[FlightResult]) -> None:
+    """Name what did not count, on stderr."""
+    for result in results:
+        p95 = None if result.verdict is None else result.verdict.tracking_error_p95_m
+        print(f"  seed {result.spec.seed} {result.spec.autopilot}: {result.cause} p95 {p95}", file=sys.stderr)
+
+
+CAMPAIGNS = {"known": known, "movers": movers, "links": links}
+
+
+def main() -> None:
+    """Fly the campaigns that are asked for, or all."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("campaigns", nargs="*", choices=[*CAMPAIGNS, []], default=[])
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--jobs", type=int, default=2)
+    asked = parser.parse_args()
+    for name in asked.campaigns or CAMPAIGNS:
+        started = time.perf_counter()
+        CAMPAIGNS[name](asked.seeds, asked.jobs)
+        print(f"\n{name}: {time.perf_counter() - started:.0f} s\n", flush=True)
+
+
+if __name__ == "__main__":
+    main()
