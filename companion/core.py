@@ -450,6 +450,7 @@ class Companion:
             self._holding = self.safety.hold
             out.append(Note(Level.WARNING, text))
         self.itinerary.stopped = bool(self.safety.hold) or self.rejoin.under_way(self._flight_us)
+        self.itinerary.heed(self.telemetry.battery)
         if self.itinerary.advance(self._flight_us):
             out.append(Note(Level.INFO, f"step {self.itinerary.index}: {self.itinerary.step.kind}"))
         out.extend(self.itinerary.take_said())

@@ -168,6 +168,12 @@ class Itinerary:
         self._purpose = None
         self._pause(Order("resume"))
 
+    def heed(self, battery: float | None) -> None:
+        """What a step may wait for: what is left in the battery (0..1), where it is known."""
+        wait = self.step.wait
+        if wait is not None and wait.percent is not None and battery is not None:
+            self._main.released = self._main.released or 100.0 * battery >= wait.percent
+
     def release(self) -> None:
         """What the step waits for has happened."""
         if self.step.wait is not None:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -59,9 +60,11 @@ def fly() -> Callable[..., Flight]:
         operator: Callable[[Companion, int], Order | None] = lambda companion, now_us: None,
         between: Callable[[VehicleCore], VehicleCore] = lambda vehicle: vehicle,
         taps: Sequence[Tap] = (),
+        autopilot: Literal["px4", "ardupilot"] = "px4",
+        ground_links: tuple[str, ...] = (),
     ) -> Flight:
         parsed = parse_mission(mission.encode(), "test.yaml")
-        companion = Companion(parsed, CompanionConfig(seed=seed))
+        companion = Companion(parsed, CompanionConfig(seed=seed, ground_links=ground_links))
         meter, ticks = FlightMeter(companion), []
         recorder = None if record is None else Recorder(record, threaded=False, **header(companion, mission.encode()))
         every: list[Tap] = [meter, ticks.append, *taps]
@@ -69,7 +72,7 @@ def fly() -> Callable[..., Flight]:
             every.append(RecordingTap(companion, recorder))
         fly_lockstep(
             companion,
-            between(build_vehicle(parsed, seed)),
+            between(build_vehicle(parsed, seed, autopilot)),
             LINK,
             InlinePlanning(parsed.planner_world()),
             every,

@@ -82,9 +82,12 @@ def waiting(companion, now_us):
     return companion.phase is Phase.FLYING and companion.itinerary.step.kind == "wait"
 
 
-def test_via_orbit_yaw_wait_and_return_are_flown_in_order_and_the_flight_ends_where_it_began(fly):
-    flight = fly(TOUR, operator=orders((waiting, Order("resume"))))
+@pytest.mark.parametrize("autopilot", ["px4", pytest.param("ardupilot", marks=pytest.mark.slow)])
+def test_via_orbit_yaw_wait_and_return_are_flown_in_order_and_the_flight_ends_where_it_began(fly, autopilot):
+    flight = fly(TOUR, operator=orders((waiting, Order("resume"))), autopilot=autopilot)
     assert flight.verdict.ok, flight.verdict.failure
+    truth = flight.verdict.track.position_m
+    assert np.linalg.norm(truth[-1][:2] - (3, 3)) < 0.5
     steps = [note.split(": ")[1] for note in flight.notes if note.startswith("step ") and "planned" not in note]
     assert steps[-6:] == ["goto", "orbit", "yaw", "wait", "return", "land"]
     _, p, v, _, yaw = path(flight)
@@ -94,7 +97,7 @@ def test_via_orbit_yaw_wait_and_return_are_flown_in_order_and_the_flight_ends_wh
     around = np.unwrap(np.arctan2(p[on_circle, 1] - 5, p[on_circle, 0] - 18))
     assert around[-1] - around[0] == pytest.approx(-2.5 * np.pi, abs=0.02)  # anticlockwise from above
     assert np.rad2deg(yaw[-1]) == pytest.approx(120)
-    np.testing.assert_allclose(p[-1], (3, 3, -2), atol=1e-6)
+    np.testing.assert_allclose(p[-1], (3, 3, -2), atol=1e-4)
     going = slice(0, int(np.argmin(np.linalg.norm(p - (14, 5, -3), axis=1))))
     assert np.linalg.norm(v[going], axis=1).max() <= 2.0 + 1e-9
     smooth(flight)
@@ -117,6 +120,7 @@ def test_a_hold_at_3_m_per_s_comes_to_rest_within_2_m_of_the_way_and_resume_goes
     smooth(flight)
 
 
+@pytest.mark.slow
 def test_goto_flies_to_the_place_and_holds_there_and_resume_goes_back_to_where_the_mission_was_left(fly):
     flight = fly(
         STRAIGHT,
@@ -131,7 +135,7 @@ def test_goto_flies_to_the_place_and_holds_there_and_resume_goes_back_to_where_t
     smooth(flight)
 
 
-@pytest.mark.parametrize(("order", "place"), [("return", (3, 3)), ("abort", None)])
+@pytest.mark.parametrize(("order", "place"), [("return", (3, 3)), pytest.param("abort", None, marks=pytest.mark.slow)])
 def test_return_and_abort_come_to_rest_first_and_land(fly, order, place):
     flight = fly(STRAIGHT, operator=orders((after(4.0), Order(order))))
     assert flight.companion.phase is Phase.DONE
@@ -143,6 +147,7 @@ def test_return_and_abort_come_to_rest_first_and_land(fly, order, place):
     smooth(flight)
 
 
+@pytest.mark.slow
 def test_an_order_that_cannot_be_carried_out_is_refused_with_its_reason_and_changes_nothing(fly):
     fenced = STRAIGHT.replace("steps:", "fence: {include: [{circle: {north: 20, east: 3, radius: 25}}]}\nsteps:")
     flight = fly(
@@ -200,6 +205,7 @@ def test_a_mission_with_an_origin_is_flown_from_where_the_vehicle_is_found_to_th
     np.testing.assert_allclose(p[-1][:2], ((47.39787 - 47.397742) * 111_200, 0.0), atol=0.05)
 
 
+@pytest.mark.slow
 def test_a_vehicle_found_elsewhere_than_its_file_says_does_not_fly_unless_it_may_be_anywhere(fly):
     class Elsewhere:
         """The vehicle, told to everybody 0.0001 degrees farther north."""
@@ -225,3 +231,63 @@ def test_a_vehicle_found_elsewhere_than_its_file_says_does_not_fly_unless_it_may
     flown = fly(placed("{north: 0, east: 0, anywhere: true}"), between=Elsewhere)
     assert flown.verdict.ok, flown.verdict.failure
     np.testing.assert_allclose(path(flown)[1][0], (11.12, 0, 0), atol=0.5)
+
+
+class Pilot:
+    """A ground station in the loop: what it says goes in as a datagram, what it hears is kept."""
+
+    def __init__(self, *given):
+        self.given, self.heard, self.mav, self.seq = list(given), [], mavlink.MAVLink(None), 0
+        self.mav.srcSystem, self.mav.srcComponent = 255, 190
+
+    def __call__(self, companion, now_us):
+        if self.given and self.given[0][0](companion, now_us):
+            self.mav.seq = self.seq = (self.seq + 1) & 0xFF
+            message = self.given.pop(0)[1]
+            return Datagram("out0", bytes(message.pack(self.mav)), ("gcs", 1))
+        return None
+
+    def hear(self, tick):
+        for o in tick.outputs:
+            if isinstance(o, Datagram) and o.link == "out0" and o.peer == ("gcs", 1):
+                message = mavlink.MAVLink(None).decode(bytearray(o.data))
+                if message.get_srcComponent() == 191:
+                    self.heard.append((tick.now_us, message))
+
+
+def command(number, *params):
+    values = (*params, *[0.0] * (7 - len(params)))
+    return mavlink.MAVLink_command_long_message(1, 191, number, 0, *values)
+
+
+def still(companion, now_us):
+    reference = companion.itinerary.reference(now_us)
+    return companion.itinerary.holding and float(np.linalg.norm(reference.velocity_m)) == 0.0
+
+
+def test_a_ground_station_pauses_moves_and_sends_the_flight_home_and_each_command_is_acknowledged_with_its_reason(fly):
+    target = 47.397742 + 25.0 / 111_200  # 25 m north of where the flight began
+    pilot = Pilot(
+        (after(3.0), command(mavlink.MAV_CMD_DO_PAUSE_CONTINUE, 0.0)),
+        (still, command(mavlink.MAV_CMD_DO_REPOSITION, -1, 0, 0, 0, target, 8.545594 + 0.005, 490.0)),
+        (still, command(mavlink.MAV_CMD_DO_REPOSITION, -1, 0, 0, 0, target, 8.545594 + 10.0 / 75_400, 491.0)),
+        (after(16.0), command(mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH)),
+    )
+    flight = fly(STRAIGHT, operator=pilot, taps=[pilot.hear], ground_links=("out0",))
+    assert flight.companion.phase is Phase.DONE
+    assert "cut short in step 1 by the order to return" in flight.verdict.failure
+    acks = [(m.command, m.result) for _, m in pilot.heard if m.get_type() == "COMMAND_ACK"]
+    assert acks == [
+        (mavlink.MAV_CMD_DO_PAUSE_CONTINUE, mavlink.MAV_RESULT_ACCEPTED),
+        (mavlink.MAV_CMD_DO_REPOSITION, mavlink.MAV_RESULT_DENIED),
+        (mavlink.MAV_CMD_DO_REPOSITION, mavlink.MAV_RESULT_ACCEPTED),
+        (mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH, mavlink.MAV_RESULT_ACCEPTED),
+    ]
+    texts = "".join(m.text for _, m in pilot.heard if m.get_type() == "STATUSTEXT")
+    assert "DO_REPOSITION refused: north 28" in texts
+    assert "m too near the bounds" in texts
+    _, p, _, _, _ = path(flight)
+    assert np.linalg.norm(p - (28, 13, -3), axis=1).min() < 1.0  # 3 m above home's 488 m; within what GPS says
+    np.testing.assert_allclose(p[-1][:2], (3, 3), atol=1e-6)
+    assert not any(m.get_type() == "HEARTBEAT" for _, m in pilot.heard if m.get_srcSystem() != 1)
+    smooth(flight)
