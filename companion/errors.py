@@ -2,6 +2,7 @@
 
 CompanionError
 ├── MissionError    a mission file that cannot be read or does not say what it must (file, where, found, expected)
+├── ConfigError     a configuration of the service that says something else than it must
 ├── LinkError       no port, no vehicle, or no vehicle any more
 └── RerunError      a recording that cannot be re-run (not one of ours, or incomplete where it matters)
 
@@ -21,6 +22,15 @@ class MissionError(CompanionError):
     file : the path as given.
     problems : one line each, `line N: key: found ..., expected ...`.
     """
+
+    def __init__(self, file: str, problems: list[str]) -> None:
+        self.file = file
+        self.problems = problems
+        super().__init__("\n".join(f"{file}: {problem}" for problem in problems))
+
+
+class ConfigError(CompanionError):
+    """The configuration of the service is unreadable or invalid; fields as in `MissionError`."""
 
     def __init__(self, file: str, problems: list[str]) -> None:
         self.file = file

@@ -72,6 +72,18 @@ def fly(
 
 
 @app.command()
+def run(
+    config: Annotated[
+        Path | None, typer.Option("--config", metavar="FILE", help="Configuration (YAML): docs/service.md.")
+    ] = None,
+) -> None:
+    """Run as a service: mission after mission, until a signal lands what flies and ends it."""
+    from companion.cli.run import run_service
+
+    raise typer.Exit(run_service(config))
+
+
+@app.command()
 def simulate(
     mission: MissionFile,
     seed: Seed = 1,

@@ -8,11 +8,11 @@ monotonic clock, so that a step of the wall clock cannot bend a flight.
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
-from companion.core import Companion
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
-from companion.seam import Input, Order, PlanWanted, ReplanWanted
+from companion.seam import Input, Order, Output, PlanWanted, ReplanWanted
 from wire.datagram import Datagram
 from wire.udp import UdpLink, wait
 
@@ -26,8 +26,19 @@ class Pace:
     missed: int  # periods without a tick, since the one before took too long
 
 
+class Core(Protocol):
+    """What is driven: a `Companion`, or what stands in for it between flights."""
+
+    TICK_US: int
+
+    @property
+    def over(self) -> bool: ...
+
+    def step(self, now_us: int, inputs: Sequence[Input]) -> list[Output]: ...
+
+
 def fly_realtime(
-    companion: Companion,
+    companion: Core,
     links: Mapping[str, UdpLink],
     planning: Planning,
     taps: Sequence[Tap],

@@ -1,0 +1,139 @@
+"""Between flights: a step machine like the core that looks on, forwards, and answers ground stations.
+
+It hears the vehicle, says HEARTBEAT once a second as the companion it is, and routes packets; it sends the vehicle
+nothing else. `over` turns true when a flight shall begin: a ground station or a person asks for it, or it begins by
+itself as soon as a vehicle stands there (`autostart`).
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+from companion.autopilots import AUTOPILOTS
+from companion.core import CompanionConfig
+from companion.ground.router import Router
+from companion.hooks import Ground, NobodyAsks
+from companion.seam import Input, Level, Note, Order, Output
+from companion.telemetry import Telemetry
+from companion.vehiclelink import VEHICLE_LINK, VehicleLink
+from wire.datagram import Datagram
+from wire.dialect import mavlink
+
+HEARTBEAT_US = 1_000_000
+SILENT_US = 3_000_000
+SETTLE_US = 1_000_000
+"""A vehicle is heard for so long before a flight begins by itself: it may be flown already."""
+
+
+class Idle:
+    """What the service does while it does not fly.
+
+    Parameters
+    ----------
+    config : as a flight's.
+    ground : who answers ground stations.
+
+    Attributes
+    ----------
+    mission : name of the mission that would be flown; empty: there is none.
+    why_not : why none can begin now, whatever the vehicle does; empty: one can.
+    autostart : begin as soon as a vehicle stands there.
+    start_asked : a flight shall begin.
+    link, telemetry : of the vehicle; read only.
+    """
+
+    TICK_US = 20_000
+
+    def __init__(self, config: CompanionConfig, ground: Ground | None = None) -> None:
+        self.mission = ""
+        self.why_not = ""
+        self.autostart = False
+        self.start_asked = False
+        self.ground: Ground = NobodyAsks() if ground is None else ground
+        self._config = config
+        self._router = Router(config.ground_links)
+        self.link, self.telemetry = VehicleLink(config.system_id, config.speaks_first), Telemetry()
+        self._first_us: int | None = None
+        self._heartbeat_due_us = 0
+        self._heard = False
+
+    @property
+    def over(self) -> bool:
+        """Whether a flight shall begin."""
+        return self.start_asked
+
+    @property
+    def heard(self) -> bool:
+        """Whether the vehicle is there."""
+        return self._heard
+
+    def step(self, now_us: int, inputs: Iterable[Input]) -> list[Output]:
+        """As `Companion.step`."""
+        out: list[Output] = []
+        for item in inputs:
+            self._take(now_us, item, out)
+        out.extend(self.ground.step(now_us))
+        self._look(now_us, out)
+        if not 0 < self._heartbeat_due_us - now_us <= HEARTBEAT_US:  # due, or the clock was set back between flights
+            self._heartbeat_due_us = now_us + HEARTBEAT_US
+            beat = self.link.pack(_heartbeat())
+            out.extend([beat] if self.link.may_speak else [])
+            out.extend(Datagram(link, beat.data) for link in self._config.ground_links)
+        if self.autostart and self._first_us is not None and now_us - self._first_us >= SETTLE_US:
+            self.start_asked = self.start_asked or not self._refusal()
+        return out
+
+    def obey(self, order: Order) -> str:
+        """Carry out an order: why it cannot be done, or nothing."""
+        if order.name != "start":
+            return "there is no flight"
+        reason = self._refusal()
+        self.start_asked = self.start_asked or not reason
+        return reason
+
+    def _refusal(self) -> str:
+        """Why no flight can begin now, or nothing."""
+        if self.why_not or not self.mission:
+            return self.why_not or "there is no mission"
+        if not self._heard:
+            return "the vehicle is not heard"
+        return "the vehicle is armed: somebody else flies it" if self.telemetry.armed else ""
+
+    def _take(self, now_us: int, item: Input, out: list[Output]) -> None:
+        match item:
+            case Datagram(link=link) if link == VEHICLE_LINK:
+                for packet, obeyed in self.link.packets(now_us, item):
+                    if obeyed:
+                        self.telemetry.take(now_us, packet, self.link.decoder)
+                out.extend(self._router.route(now_us, item, self.link.system_id, self.link.peer))
+            case Datagram(link=link) if link in self._config.ground_links:
+                out.extend(self.ground.take(now_us, item, self.obey))
+                routed = self._router.route(now_us, item, self.link.system_id, self.link.peer)
+                out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
+            case Order():
+                reason = self.obey(item)
+                out.extend([Note(Level.WARNING, f"{item.name}: {reason}")] if reason else [])
+
+    def _look(self, now_us: int, out: list[Output]) -> None:
+        """Whether the vehicle is there, what it says, and another that may have taken its place."""
+        for severity, text in self.telemetry.texts:
+            out.append(Note(Level.WARNING if severity <= 4 else Level.INFO, f"vehicle: {text}"))
+        self.telemetry.texts.clear()
+        self.telemetry.acks.clear()
+        heard_us = self.link.heard_us
+        heard = heard_us is not None and now_us - heard_us <= SILENT_US and self.telemetry.heartbeat_us is not None
+        if heard and not self._heard:
+            kind = AUTOPILOTS.get(self.telemetry.autopilot)
+            name = f"autopilot type {self.telemetry.autopilot}" if kind is None else kind.name
+            out.append(Note(Level.INFO, f"vehicle heard: system {self.link.system_id}, {name}"))
+            self._first_us = now_us
+        if self._heard and not heard:
+            out.append(Note(Level.WARNING, f"nothing heard from the vehicle for {SILENT_US / 1e6:g} s"))
+        if heard_us is not None and now_us - heard_us > SILENT_US:
+            self._first_us = None
+            self.link, self.telemetry = VehicleLink(self._config.system_id, self._config.speaks_first), Telemetry()
+        self._heard = heard
+
+
+def _heartbeat() -> Any:
+    kind, state = mavlink.MAV_TYPE_ONBOARD_CONTROLLER, mavlink.MAV_STATE_STANDBY
+    return mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)

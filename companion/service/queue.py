@@ -1,0 +1,107 @@
+"""Which mission comes next: a file, the files of a folder by name, or what a ground station has put there."""
+
+import re
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from companion.errors import CompanionError, MissionError
+from companion.mission import Mission
+from companion.missionfile import parse_mission, read_mission_file
+
+ENDINGS = (".yaml", ".yml", ".plan", ".waypoints")
+MOST_FILES = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """A mission that can be flown: its name for people, the bytes of its file, and what they say."""
+
+    file: str
+    data: bytes
+    mission: Mission
+
+
+class Missions:
+    """The missions of a service, one after another.
+
+    Parameters
+    ----------
+    file, folder : one mission, again and again when it is asked for; or each of a folder once, in the order of names.
+
+    Attributes
+    ----------
+    ready : the next mission; None: there is none, and `why_not` says why.
+    """
+
+    def __init__(self, file: Path | None = None, folder: Path | None = None) -> None:
+        self._file, self._folder = file, folder
+        self._flown: set[str] = set()
+        self.ready: Ready | None = None
+        self.why_not = "there is no mission"
+
+    def look(self) -> None:
+        """Read what comes next; a file that is none is told by `why_not`."""
+        path = self._file if self._folder is None else self._next()
+        if path is None:
+            self.ready, self.why_not = None, "there is no mission" if self._folder is None else "no mission is left"
+            return
+        try:
+            data = read_mission_file(path)
+            self.ready, self.why_not = Ready(str(path), data, parse_mission(data, str(path))), ""
+        except MissionError as error:
+            self.ready, self.why_not = None, error.args[0].splitlines()[0]
+
+    def put(self, ready: Ready) -> None:
+        """A ground station's mission comes next, before what the files say."""
+        self.ready, self.why_not = ready, ""
+
+    def done(self) -> None:
+        """The mission that was ready has been flown."""
+        if self.ready is not None:
+            self._flown.add(self.ready.file)
+        self.look()
+
+    def _next(self) -> Path | None:
+        assert self._folder is not None
+        try:
+            found = sorted(p for p in self._folder.iterdir() if p.suffix in ENDINGS and p.is_file())[:MOST_FILES]
+        except OSError as error:
+            raise CompanionError(f"{self._folder}: cannot be read: {error.strerror or error}") from error
+        return next((path for path in found if str(path) not in self._flown), None)
+
+
+def recording_file(directory: Path, mission: Mission) -> Path:
+    """A file name in `directory` (made if need be) that says what and when, and is not taken.
+
+    Raises
+    ------
+    CompanionError : the directory cannot be made.
+    """
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CompanionError(f"{directory}: cannot make the directory: {error.strerror or error}") from error
+    slug = re.sub(r"[^a-z0-9]+", "-", mission.name.lower()).strip("-") or "mission"
+    return directory / f"{slug}-{datetime.now(UTC):%Y%m%dT%H%M%S_%fZ}.mcap"
+
+
+_OURS = re.compile(r"[a-z0-9-]+-\d{8}T\d{6}_\d{6}Z\.mcap")
+
+
+def make_room(directory: Path, most_mb: float) -> list[Path]:
+    """Remove the oldest of our recordings until the rest takes less than `most_mb`; says which."""
+    found = []
+    for path in directory.glob("*.mcap") if directory.is_dir() else ():
+        if _OURS.fullmatch(path.name):
+            status = path.stat()
+            found.append((status.st_mtime, status.st_size, path))
+    found.sort()
+    total, removed = sum(size for _, size, _ in found), []
+    for _, size, path in found:
+        if total < most_mb * 1e6:
+            break
+        path.unlink(missing_ok=True)
+        total -= size
+        removed.append(path)
+    return removed

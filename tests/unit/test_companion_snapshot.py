@@ -1,0 +1,229 @@
+"""The service between flights, its state, its page and its files."""
+
+import http.client
+import json
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from companion.core import Companion, CompanionConfig
+from companion.missionfile import load_mission
+from companion.seam import Level, Note, Order
+from companion.service.http import MOST_THREADS, Board, render, served
+from companion.service.idle import Idle
+from companion.service.jsonlog import Log
+from companion.service.queue import Missions, make_room, recording_file
+from companion.service.snapshot import flight_state, idle_state, vehicle_state
+from companion.vehiclelink import VEHICLE_LINK
+from companion.verdict import FlightMeter
+from wire.datagram import Datagram
+from wire.dialect import mavlink
+
+MISSION = load_mission("missions/l_shape.yaml")
+HERE = ("127.0.0.1", 1001)
+ARMED = 0x80
+
+
+def said(message: Any, link: str = VEHICLE_LINK, system: int = 1, component: int = 1) -> Datagram:
+    sender = mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
+    return Datagram(link, bytes(message.pack(sender)), HERE)
+
+
+def beat(base_mode: int = 1) -> Datagram:
+    return said(mavlink.MAVLink_heartbeat_message(2, 12, base_mode, 0x3040000, 3, 3))
+
+
+class Service:
+    """An idle companion with a mission, and its clock."""
+
+    def __init__(self, **config: Any) -> None:
+        self.idle, self.now_us = Idle(CompanionConfig(**config)), 0
+        self.idle.mission = "hop"
+
+    def run(self, seconds: float, *every_second: Datagram) -> list[Any]:
+        out = []
+        for k in range(round(seconds * 50)):
+            self.now_us += 20_000
+            out += self.idle.step(self.now_us, list(every_second) if k % 50 == 0 else [])
+        return out
+
+
+def to_vehicle(out: list[Any]) -> list[Datagram]:
+    return [o for o in out if isinstance(o, Datagram) and o.link == VEHICLE_LINK]
+
+
+def test_between_flights_the_vehicle_gets_a_heartbeat_a_second_and_nothing_else() -> None:
+    sent = to_vehicle(Service().run(10, beat()))
+    assert 10 <= len(sent) <= 11
+    assert all(d.data[7:10] == b"\0\0\0" and d.data[5:7] == bytes([1, 191]) for d in sent)
+
+
+def test_a_vehicle_that_was_never_heard_is_not_spoken_to_unless_it_waits_to_be_called() -> None:
+    assert not to_vehicle(Service().run(3))
+    assert to_vehicle(Service(speaks_first=True).run(3))
+
+
+def test_packets_are_forwarded_both_ways_between_flights() -> None:
+    service = Service(ground_links=("out0",))
+    question = said(mavlink.MAVLink_param_request_list_message(1, 1), "out0", 255, 190)
+    out = service.run(1, beat(), question)
+    assert Datagram(VEHICLE_LINK, question.data, HERE) in out
+    assert Datagram("out0", beat().data) in out
+
+
+def test_a_flight_begins_by_itself_when_the_vehicle_stands_there_and_not_while_it_is_armed() -> None:
+    service = Service()
+    service.idle.autostart = True
+    service.run(5)
+    assert not service.idle.over
+    service.run(5, beat(1 | ARMED))
+    assert not service.idle.over
+    service.run(2, beat())
+    assert service.idle.over
+
+
+@pytest.mark.parametrize(
+    ("mission", "why_not", "inputs", "reason"),
+    [
+        ("", "no mission is left", [beat()], "no mission is left"),
+        ("", "", [beat()], "there is no mission"),
+        ("hop", "", [], "the vehicle is not heard"),
+        ("hop", "", [beat(1 | ARMED)], "the vehicle is armed: somebody else flies it"),
+        ("hop", "", [beat()], ""),
+    ],
+)
+def test_an_order_to_start_is_carried_out_or_refused_with_the_reason(
+    mission: str, why_not: str, inputs: list[Datagram], reason: str
+) -> None:
+    service = Service()
+    service.idle.mission, service.idle.why_not = mission, why_not
+    service.run(1, *inputs)
+    assert service.idle.obey(Order("start")) == reason
+    assert service.idle.over == (not reason)
+    assert service.idle.obey(Order("land")) == "there is no flight"
+
+
+def test_a_vehicle_that_falls_silent_and_comes_back_from_another_port_is_taken_up_again() -> None:
+    service = Service()
+    service.run(2, beat())
+    assert service.idle.heard
+    notes = [o.text for o in service.run(5) if isinstance(o, Note)]
+    assert notes == ["nothing heard from the vehicle for 3 s"]
+    assert not service.idle.heard
+    sent = to_vehicle(service.run(2, Datagram(VEHICLE_LINK, beat().data, ("127.0.0.1", 2002))))
+    assert {d.peer for d in sent} == {("127.0.0.1", 2002)}
+
+
+def test_the_state_has_the_same_keys_before_anything_is_known_and_later_and_is_json() -> None:
+    service = Service()
+    before = idle_state(0, service.idle)
+    position = said(mavlink.MAVLink_local_position_ned_message(100, 1.0, 2.0, -3.0, 0.5, 0.0, 0.0))
+    service.run(1, beat(), position)
+    after = idle_state(service.now_us, service.idle)
+    assert before.keys() == after.keys()
+    assert (before["heard"], before["position_m"], after["heard"]) == (False, None, True)
+    assert after["position_m"] == [1.0, 2.0, -3.0]
+    companion = Companion(MISSION, CompanionConfig())
+    flight = flight_state(companion, FlightMeter(companion))
+    vehicle = vehicle_state(0, companion.link, companion.telemetry)
+    json.dumps([before, after, flight, vehicle], allow_nan=False)
+    assert vehicle.keys() == after.keys()
+
+
+def ask(place: tuple[str, int], path: str, method: str = "GET", **headers: str) -> tuple[int, str]:
+    connection = http.client.HTTPConnection(*place, timeout=5)
+    try:
+        connection.request(method, path, headers=headers)
+        answer = connection.getresponse()
+        return answer.status, answer.read().decode()
+    finally:
+        connection.close()
+
+
+def test_the_page_the_state_and_the_health_are_served_to_this_machine_only() -> None:
+    board = Board()
+    with served(("127.0.0.1", 0), board) as place:
+        assert ask(place, "/health") == (503, '{\n  "ok": false,\n  "reason": "the loop hangs"\n}\n')
+        board.put({"state": "idle", "vehicle": {"heard": False}})
+        assert json.loads(ask(place, "/health")[1])["reason"] == "the vehicle is not heard"
+        board.put({"state": "idle", "vehicle": {"heard": True}, "mission": "<b>hop</b>"})
+        assert ask(place, "/health")[0] == 200
+        assert json.loads(ask(place, "/state.json")[1])["mission"] == "<b>hop</b>"
+        status, page = ask(place, "/")
+        assert status == 200
+        assert "&lt;b&gt;hop&lt;/b&gt;" in page
+        assert ask(place, "/", "HEAD") == (200, "")
+        assert ask(place, "/elsewhere")[0] == 404
+        assert ask(place, "/", "POST")[0] == 501
+        assert ask(place, "/state.json", Host="evil.example")[0] == 403
+        held = [http.client.HTTPConnection(*place, timeout=5) for _ in range(2 * MOST_THREADS)]
+        for connection in held:
+            connection.connect()
+        for connection in held:
+            connection.close()
+        end_s = time.monotonic() + 5
+        while time.monotonic() < end_s:
+            try:
+                assert ask(place, "/state.json")[0] == 200
+                break
+            except OSError:
+                continue
+        else:
+            pytest.fail("the page is not served any more after many held it open")
+
+
+def test_the_page_needs_nothing_from_elsewhere_and_takes_any_state() -> None:
+    for state in ({}, {"vehicle": {"heard": True, "battery": 0.5, "position_m": [1.0, 2.0, 3.0]}, "up_s": 4000}):
+        page = render(state, "")
+        assert "http://" not in page
+        assert "https://" not in page
+    assert "50 %" in page
+    assert "1 h 6 min" in page
+
+
+def test_an_entry_of_the_log_is_one_line_of_json_whatever_its_text(capsys: pytest.CaptureFixture[str]) -> None:
+    Log("json").write(Level.WARNING, "flying", "two\nlines \x1b[31m", ok=False)
+    Log("text").write(Level.ERROR, "flying", "two\nlines \x1b[31m")
+    first, second = capsys.readouterr().err.splitlines()
+    entry = json.loads(first)
+    assert (entry["level"], entry["phase"], entry["text"], entry["ok"]) == (
+        "warning",
+        "flying",
+        "two\nlines \x1b[31m",
+        False,
+    )
+    assert "\x1b" not in second
+
+
+def test_the_missions_of_a_folder_come_once_each_by_name_and_a_file_again_and_again(tmp_path: Path) -> None:
+    text = Path("missions/l_shape.yaml").read_text()
+    for name in ("b.yaml", "a.yaml"):
+        (tmp_path / name).write_text(text)
+    (tmp_path / "notes.txt").write_text("no mission")
+    missions, flown = Missions(folder=tmp_path), []
+    missions.look()
+    while missions.ready is not None:
+        flown.append(Path(missions.ready.file).name)
+        missions.done()
+    assert flown == ["a.yaml", "b.yaml"]
+    assert missions.why_not == "no mission is left"
+    again = Missions(file=tmp_path / "a.yaml")
+    again.look()
+    again.done()
+    assert again.ready is not None
+    broken = Missions(file=tmp_path / "notes.txt")
+    broken.look()
+    assert "found 'no mission', expected a mapping" in broken.why_not
+
+
+def test_the_oldest_of_our_recordings_make_room_and_other_files_stay(tmp_path: Path) -> None:
+    files = [recording_file(tmp_path, MISSION) for _ in range(3)]
+    for age, file in enumerate(files):
+        file.write_bytes(bytes(600_000))
+        os.utime(file, (1e9 + age, 1e9 + age))
+    (tmp_path / "mine.mcap").write_bytes(bytes(5_000_000))
+    assert make_room(tmp_path, 1.0) == files[:2]
+    assert sorted(p.name for p in tmp_path.iterdir()) == sorted([files[2].name, "mine.mcap"])
