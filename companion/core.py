@@ -52,6 +52,7 @@ BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGI
 """Phases in which giving up costs nothing."""
 START_SLACK = 3.0
 """How far from where its file says a vehicle may stand, where the mission's place on the earth is known [m]."""
+MOVING = AIRBORNE - {Phase.LANDING}
 PARAMETER_WAIT_US, PARAMETER_REPEAT_US = 2_000_000, 500_000
 STREAMS_AGAIN_US = 5_000_000
 """Without a position for so long while it is being prepared, the vehicle is asked for its streams again."""
@@ -60,6 +61,8 @@ STREAM_BEFORE_ASKING_US = 500_000
 CONFIRM_US = 2_000_000
 """An accepted command whose effect does not show after this is given again; PX4's HEARTBEAT is up to 1 s late."""
 CONFIRM_TRIES = 5
+POSITION_FRESH_US = 200_000
+"""A way back begins where the vehicle is now, not where it was before it fell silent."""
 TEXT_FRESH_US = 3_000_000
 """A warning of the vehicle's that is no older belongs to the mode it took."""
 
@@ -340,9 +343,9 @@ class Companion:
             position_s=(now_us - (t.position_us or 0)) / 1e6,
             tick_gap_s=(now_us - (self._last_us or now_us)) / 1e6,
             rebooted=t.boots != self._boots or booting,
-            disarmed=not t.armed and (t.armed_reports >= 2 or on_ground),
+            disarmed=not t.armed and (t.arming_is_sure or (on_ground and self.phase not in MOVING)),
             in_control=autopilot.in_control(t),
-            mode_reports=t.mode_reports,
+            mode_sure=t.mode_is_sure,
             mode=autopilot.mode_name(t),
             last_text=text,
             stream_lost=autopilot.lost_our_stream(t),
@@ -425,7 +428,7 @@ class Companion:
     def _arming(self, now_us: int, out: list[Output]) -> Event | None:
         if self.telemetry.armed:
             return Event.ARMED
-        if not self.autopilot.in_control(self.telemetry) and self.telemetry.mode_reports >= 2:
+        if not self.autopilot.in_control(self.telemetry) and self.telemetry.mode_is_sure:
             self.failure = f"the vehicle left {self.autopilot.offboard_mode} before it armed"
             return Event.MODE_LOST
         return Event.REFUSED if self._command_failed(now_us, self.autopilot.arm) else None
@@ -456,7 +459,8 @@ class Companion:
         out.extend(self.itinerary.take_said())
         if self.itinerary.cut_short:
             self._blame(self.itinerary.cut_short)
-        return Event.STEPS_DONE if self.itinerary.finished() else None
+        ours = self.autopilot.in_control(self.telemetry)  # else whoever took the mode is not told to land
+        return Event.STEPS_DONE if ours and self.itinerary.finished() else None
 
     def _link_lost(self, now_us: int, out: list[Output]) -> Event | None:
         self.itinerary.advance(self._flight_us)  # to its stop
@@ -464,9 +468,11 @@ class Companion:
 
     def _rejoining(self, now_us: int, out: list[Output]) -> Event | None:
         in_control = self.autopilot.in_control(self.telemetry)
+        heard = self.telemetry.position_us is not None and now_us - self.telemetry.position_us < POSITION_FRESH_US
+        flies = self.autopilot.airborne(self.telemetry) or not self.autopilot.takes_off_itself
         self.itinerary.advance(self._flight_us)  # to its stop
         target = self.itinerary.reference(self._flight_us)
-        wanted = self.rejoin.step(self.pose(self._flight_us), in_control, target)
+        wanted = self.rejoin.step(self.pose(self._flight_us), in_control and heard and flies, target)
         out.extend([] if wanted is None else [wanted])
         if self.rejoin.refusal:
             self._blame(f"no way back to the mission: {self.rejoin.refusal}")
@@ -577,6 +583,8 @@ class Companion:
                 self.itinerary.stopped = True
             case Phase.REJOINING:
                 self.itinerary.stopped = True
+                if self.autopilot.takes_off_itself and self.itinerary.index == 0:
+                    self.itinerary.airborne(self._flight_us)
                 if event is Event.GIVEN_BACK:
                     self.failure = ""
                     self._command = self.autopilot.take_control()

@@ -2,8 +2,8 @@
 
     begin()  step() ... step()  take(plan)  go()  reference() ... until it is not under_way()
 
-Until the vehicle obeys and is slow, the point to hold is where it says it is; from there a way is planned through the
-mission's world, from rest to rest. Everything is in the mission frame (NED).
+Until the vehicle obeys, the point to hold is where it says it is; then it is where it can come to rest. Once it stands
+there, a way is planned through the mission's world, from rest to rest. Everything is in the mission frame (NED).
 """
 
 import numpy as np
@@ -16,6 +16,10 @@ REQUESTS = 2_000_000
 """Plans of ways back are numbered from here; steps and errands have lower numbers."""
 SLOW = 0.5
 """[m/s]"""
+BRAKING = 4.0
+"""[m/s^2], if the mission allows it."""
+NEAR = 0.5
+"""A vehicle that stands farther from where it was to stop stays where it stands [m]."""
 SAME_PLACE = 0.05
 """No way is needed to a place nearer than this [m]."""
 AT_REST = 1e-3
@@ -32,6 +36,8 @@ class Rejoin:
     def __init__(self, mission: Mission, seed: int) -> None:
         self._mission, self._seed = mission, seed
         self._here: FloatArray = np.zeros(3)
+        self._fixed = False
+        self._braking = min(BRAKING, mission.planner_limits().acceleration)
         self._asked: PlanWanted | None = None
         self._requests = 0
         self._way: Flown | None = None
@@ -41,6 +47,7 @@ class Rejoin:
     def begin(self, pose: Pose) -> None:
         """Hold where the vehicle is."""
         self._here, self._asked, self._way = pose.position_m, None, None
+        self._fixed = False
         self.ready, self.refusal = False, ""
 
     def step(self, pose: Pose, obeys: bool, target: Reference) -> PlanWanted | None:
@@ -53,8 +60,16 @@ class Rejoin:
         """
         if self._asked is not None or self.ready:
             return None
-        if not obeys or float(np.linalg.norm(pose.velocity_m)) > SLOW:
+        speed = float(np.linalg.norm(pose.velocity_m))
+        slow = speed <= SLOW
+        if not obeys:
+            self._here, self._fixed = pose.position_m, False
+        elif not self._fixed:
+            self._here = pose.position_m + pose.velocity_m * (speed / (2.0 * self._braking))
+            self._fixed = True
+        elif slow and float(np.linalg.norm(pose.position_m - self._here)) > NEAR:
             self._here = pose.position_m
+        if not obeys or not slow:
             return None
         if float(np.linalg.norm(target.velocity_m)) > AT_REST:
             return None  # it still comes to rest

@@ -14,17 +14,15 @@ from companion.phases import Event, Phase
 
 SILENT_S = 3.0
 GIVE_UP_S = 60.0
-POSITION_HOLD_S, POSITION_LAND_S = 1.0, 3.0
+POSITION_HOLD_S, POSITION_LAND_S = 0.5, 3.0
 HEARD_S = 1.5
 """A vehicle heard within this is there: its HEARTBEAT comes once a second."""
-ASTRAY_M = 2.0
+ADRIFT_M, ASTRAY_M = 1.0, 2.0
 STALLED_S = 0.5
 BATTERY_LOW, BATTERY_CRITICAL = 0.15, 0.07
 TROUBLE_S = 30.0
 TAKEOFF_S = 30.0
 REJOIN_S = 30.0
-MODE_REPORTS = 2
-"""Messages in a row that must show another mode before it is believed: one may be an old one that came late."""
 
 
 class Action(Enum):
@@ -51,7 +49,7 @@ class Watch:
     rebooted: bool = False
     disarmed: bool = False  # surely
     in_control: bool = True
-    mode_reports: int = MODE_REPORTS
+    mode_sure: bool = True  # it is not perhaps an old mode, told by packets that came late
     mode: str = ""
     last_text: str = ""  # what the vehicle said lately, if it matters
     stream_lost: bool = False  # it left our mode only since it missed our setpoints
@@ -101,13 +99,13 @@ def _gone(w: Watch) -> str:
 
 
 def _taken(w: Watch) -> str:
-    if w.in_control or w.stream_lost or w.mode_asked or w.mode_reports < MODE_REPORTS:
+    if w.in_control or w.stream_lost or w.mode_asked or not w.mode_sure:
         return ""
     return f"{w.failsafe or f'the vehicle is in {w.mode} now'}{w.last_text}; it is not fought for"
 
 
 def _stopped_landing(w: Watch) -> str:
-    if w.comes_down or w.on_ground or w.mode_reports < MODE_REPORTS or (not w.came_down and w.in_control):
+    if w.comes_down or w.on_ground or not w.mode_sure or (not w.came_down and w.in_control):
         return ""
     if not w.came_down and (w.stream_lost or w.mode_asked):
         return ""
@@ -154,12 +152,17 @@ def _battery_low(w: Watch) -> str:
 
 
 def _stream_lost(w: Watch) -> str:
-    lost = w.stream_lost and not w.in_control
+    lost = w.stream_lost and not w.in_control and w.mode_sure
     return f"the vehicle misses our setpoints and is in {w.mode}" if lost else ""
 
 
 def _stalled(w: Watch) -> str:
     return f"no setpoint left for {w.tick_gap_s:.1f} s" if w.tick_gap_s > STALLED_S else ""
+
+
+def _adrift(w: Watch) -> str:
+    late = w.position_s > POSITION_HOLD_S
+    return f"the vehicle is {w.error_m:.1f} m from its reference" if w.error_m > ADRIFT_M and not late else ""
 
 
 def _position_late(w: Watch) -> str:
@@ -187,7 +190,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("silent", Action.WAIT, Event.VEHICLE_SILENT, _FLOWN, 0.0, _silent),
     Rule("no position", Action.LAND, Event.LAND_ASKED, _FLOWN, 0.5, _no_position),  # not before one can have arrived
     Rule("no estimate", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _no_estimate),
-    Rule("astray", Action.LAND, Event.LAND_ASKED, _MISSION, 1.0, _astray),
+    Rule("astray", Action.LAND, Event.LAND_ASKED, _MISSION | {Phase.REJOINING}, 1.0, _astray),
     Rule("stranded", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _stranded),
     Rule("takeoff late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.TAKING_OFF}), 0.0, _takeoff_late),
     Rule("rejoining late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.REJOINING}), 0.0, _rejoin_late),
@@ -195,6 +198,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("battery low", Action.RETURN, Event.LAND_ASKED, _MISSION, 2.0, _battery_low),
     Rule("stream lost", Action.REJOIN, Event.INTERRUPTED, frozenset({Phase.TAKING_OFF}) | _MISSION, 0.0, _stream_lost),
     Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
+    Rule("adrift", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.3, _adrift),
     Rule("position late", Action.HOLD, None, _MISSION, 0.0, _position_late),
     Rule("estimate doubted", Action.HOLD, None, _MISSION, 2.0, _doubted),
     Rule("at the fence", Action.HOLD, None, _MISSION, 0.0, _at_the_fence),

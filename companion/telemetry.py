@@ -3,7 +3,7 @@
 Only messages of the one configured vehicle (its system id, component 1) get here; `Telemetry.take` is called once a
 packet and decodes only the kinds listed in `HANDLERS`. UDP may bring an old packet late or a packet twice: a position
 or an attitude that is not newer than the last is dropped by its time since boot, and what only changes when people or
-failsafes act (mode, arming) counts how many reports in a row say so.
+failsafes act (mode, arming) is sure when nothing else was said for a while before.
 """
 
 import math
@@ -24,6 +24,9 @@ REBOOT_MS = 1_000
 """A time since boot that goes back farther than this is another boot; less is a packet that came late."""
 REBOOT_SAMPLES = 3
 """So many in a row must say so."""
+SURE_US = 300_000
+"""No report comes later than this after one that was sent after it."""
+NEVER_US = 10**15
 MAX_CHUNKED, MAX_CHUNKS, MAX_WAITING = 16, 8, 64
 
 
@@ -44,9 +47,9 @@ class Telemetry:
     heartbeat_us: int | None = None
     autopilot: int = 0  # MAV_AUTOPILOT
     armed: bool = False
-    armed_reports: int = 0  # HEARTBEATs in a row that say so
+    armed_for_us: int = NEVER_US  # since a HEARTBEAT last said the contrary, as of the newest
     custom_mode: int = 0  # by HEARTBEAT or CURRENT_MODE, whichever came last
-    mode_reports: int = 0  # in a row
+    mode_for_us: int = NEVER_US  # since they last said another, as of the newest
     intended_mode: int | None = None  # CURRENT_MODE: what was asked for last
     system_status: int = 0  # MAV_STATE
     boot_ms: int | None = None  # time since boot, of the newest position or attitude
@@ -69,6 +72,10 @@ class Telemetry:
     parameters: dict[str, bytes] = field(default_factory=dict)  # the raw four bytes of param_value, for those asked for
     acks: list[Ack] = field(default_factory=list)  # taken and emptied once a tick
     texts: list[tuple[int, str]] = field(default_factory=list)  # (severity, text) of STATUSTEXT, likewise
+    _arming_us: int = -NEVER_US
+    _other_arming_us: int = -NEVER_US
+    _mode_us: int = -NEVER_US
+    _other_mode_us: int = -NEVER_US
     _chunks: dict[int, list[str]] = field(default_factory=dict)  # STATUSTEXT id -> chunks so far
     _newest: dict[int, int] = field(default_factory=dict)  # message id -> its newest time since boot
     _back: list[int] = field(default_factory=list)  # times since boot that may be another boot's
@@ -115,22 +122,34 @@ class Telemetry:
             setattr(self, name, value)
         self.heartbeat_us, self.autopilot, self.boots, self.texts, self.parameters = kept
 
-    def _mode(self, mode: int) -> None:
-        self.mode_reports = self.mode_reports + 1 if mode == self.custom_mode else 1
-        self.custom_mode = mode
+    @property
+    def mode_is_sure(self) -> bool:
+        """Whether the mode is not perhaps an old one, told by packets that came late."""
+        return self.mode_for_us >= SURE_US
+
+    @property
+    def arming_is_sure(self) -> bool:
+        """The same of `armed`."""
+        return self.armed_for_us >= SURE_US
+
+    def _mode(self, now_us: int, mode: int) -> None:
+        if mode != self.custom_mode:
+            self._other_mode_us = self._mode_us
+        self.custom_mode, self._mode_us, self.mode_for_us = mode, now_us, now_us - self._other_mode_us
 
     def _heartbeat(self, now_us: int, m: Any) -> None:
         self.heartbeat_us = now_us
         self.autopilot = m.autopilot
         armed = bool(m.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
-        self.armed_reports = self.armed_reports + 1 if armed == self.armed else 1
-        self.armed = armed
+        if armed != self.armed:
+            self._other_arming_us = self._arming_us
+        self.armed, self._arming_us, self.armed_for_us = armed, now_us, now_us - self._other_arming_us
         self.system_status = m.system_status
-        self._mode(m.custom_mode)
+        self._mode(now_us, m.custom_mode)
 
     def _current_mode(self, now_us: int, m: Any) -> None:
         self.intended_mode = m.intended_custom_mode
-        self._mode(m.custom_mode)
+        self._mode(now_us, m.custom_mode)
 
     def _local_position(self, now_us: int, payload: bytes) -> None:
         values = local_position_ned(payload)

@@ -1,7 +1,9 @@
 """The link toward the vehicle: who on it is obeyed, and our packets to them.
 
 Obeyed is the configured system's autopilot, or the first autopilot that says it is one. Its address is fixed by its
-first HEARTBEAT: whoever else uses the same system id from elsewhere is another, and told about once.
+first HEARTBEAT: whoever else uses the same system id from elsewhere is another, and told about once. Only when the
+first has been silent for `RELEARN_US` a HEARTBEAT from elsewhere is taken for its: a vehicle that was started again
+calls from another port.
 """
 
 from collections.abc import Iterator
@@ -15,6 +17,7 @@ VEHICLE_LINK = "autopilot"
 """Its name; every other link is a ground station's."""
 COMPONENT_ID = mavlink.MAV_COMP_ID_ONBOARD_COMPUTER
 AUTOPILOT_COMPONENT = mavlink.MAV_COMP_ID_AUTOPILOT1
+RELEARN_US = 3_000_000
 
 
 class VehicleLink:
@@ -64,8 +67,10 @@ class VehicleLink:
         Everybody's but the autopilot's are counted as foreign.
         """
         for packet in self.framer.packets(datagram.data):
-            if self.heard_us is None and self._is_autopilot(packet):
+            gone = self.heard_us is None or now_us - self.heard_us > RELEARN_US
+            if gone and (self.heard_us is None or datagram.peer != self.peer) and self._is_autopilot(packet):
                 self.system_id, self.peer, self.heard_us = packet.system_id, datagram.peer, now_us
+                self._impostor_told = False
             if self.is_vehicle(packet, datagram.peer):
                 if packet.message_id in mavlink.mavlink_map:  # of others the checksum is not known: they may be noise
                     self.heard_us = now_us
@@ -100,6 +105,7 @@ class VehicleLink:
         if packet.message_id != mavlink.MAVLINK_MSG_ID_HEARTBEAT or packet.component_id != AUTOPILOT_COMPONENT:
             return False
         heartbeat = self.decoder.decode(bytearray(packet.raw))
-        return packet.system_id == (self._wanted or packet.system_id) and (
+        known = self.system_id if self.heard_us is not None else self._wanted
+        return packet.system_id == (known or packet.system_id) and (
             heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID
         )

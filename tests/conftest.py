@@ -16,6 +16,7 @@ from companion.drivers.tick import Tap, Tick
 from companion.missionfile import parse_mission
 from companion.seam import Note, Order
 from companion.verdict import FlightMeter, Verdict, judge
+from fakevehicle.config import Autopilot
 from logs.recorder import Recorder
 
 HOP = """\
@@ -55,6 +56,7 @@ def fly() -> Callable[..., Flight]:
         mission: str = HOP,
         *,
         seed: int = 1,
+        autopilot: Autopilot = "px4",
         record: Path | None = None,
         limit_s: float = 120.0,
         operator: Callable[[Companion, int], Order | None] = lambda companion, now_us: None,

@@ -8,6 +8,9 @@ mode as it is. LOITER without sticks sinks: to hold means to repeat a point in G
 LAND, in which it cannot be armed: GUIDED comes first.
 """
 
+import math
+import struct
+
 from companion.autopilots.base import ParameterWish, common_reasons, stream_requests
 from companion.commands import Command
 from companion.telemetry import Telemetry
@@ -48,6 +51,11 @@ STREAMS_HZ = {
 """The last is a simulator's truth; a real vehicle refuses it."""
 
 
+TIMEOUT = "GUID_TIMEOUT"
+LONGEST_TIMEOUT = 1.0
+"""[s]; as long as PX4 waits before it holds."""
+
+
 class ArduPilot:
     """ArduCopter, version 4.3 or newer."""
 
@@ -61,13 +69,21 @@ class ArduPilot:
         return stream_requests(STREAMS_HZ)
 
     def parameters_wanted(self) -> list[str]:
-        return []
+        return [TIMEOUT]
 
     def parameters_to_set(self, telemetry: Telemetry) -> list[ParameterWish]:
-        return []
+        """By default a lost stream carries the vehicle on at its last velocity for 3 s: 9 m at 3 m/s."""
+        timeout = _float(telemetry.parameters.get(TIMEOUT, b""))
+        if timeout is None or timeout <= LONGEST_TIMEOUT:
+            return []
+        return [ParameterWish(TIMEOUT, LONGEST_TIMEOUT, mavlink.MAV_PARAM_TYPE_REAL32, f"{LONGEST_TIMEOUT:g} s")]
 
     def warnings(self, telemetry: Telemetry) -> list[str]:
-        return []
+        timeout = _float(telemetry.parameters.get(TIMEOUT, b""))
+        if timeout is not None and timeout <= LONGEST_TIMEOUT:
+            return []
+        known = "could not be read" if timeout is None else f"is {timeout:g} s"
+        return [f"{TIMEOUT} {known}: when setpoints stop, it flies on at its last velocity until then"]
 
     def booting(self, telemetry: Telemetry) -> bool:
         return telemetry.system_status in (mavlink.MAV_STATE_UNINIT, mavlink.MAV_STATE_BOOT)
@@ -125,6 +141,12 @@ class ArduPilot:
         """Only an estimator's failsafe shows as such; of a fence or a battery the texts tell."""
         critical = telemetry.system_status == mavlink.MAV_STATE_CRITICAL
         return f"ArduPilot's failsafe chose {self.mode_name(telemetry)}" if critical else ""
+
+
+def _float(raw: bytes) -> float | None:
+    """ArduPilot sends every parameter as a float."""
+    value = struct.unpack("<f", raw)[0] if len(raw) == 4 else math.nan
+    return value if math.isfinite(value) else None
 
 
 def _mode(number: int, what: str) -> Command:
