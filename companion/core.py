@@ -111,6 +111,7 @@ class Companion:
         self.ground: Ground = NobodyAsks()
         if config.ground_links:
             self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
+        self.fence = mission.geofence()
         self.router = Router(config.ground_links)
         if mission.senses():
             sight = Sight(mission)
@@ -336,7 +337,11 @@ class Companion:
         text = ""
         if self._warned is not None and now_us - self._warned[0] <= TEXT_FRESH_US:
             text = f" ({self._warned[1]})"
+        fence_m = None
+        if self.fence is not None and self._reference is not None:
+            fence_m = self.fence.inside(self._reference.position_m) - self.fence.margin
         return Watch(
+            fence_m=fence_m,
             phase=self.phase,
             phase_s=(now_us - self._entered_us) / 1e6,
             silent_s=(now_us - (self.link.heard_us or 0)) / 1e6,
@@ -640,7 +645,7 @@ class Companion:
             out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if not self._takes_setpoints():
             return
-        reference = self._asked_for(now_us)
+        reference = self._fenced_in(self._asked_for(now_us), out)
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
         message = setpoint_message(reference, self.origin_n, time_boot_ms, self.link.target)
         if message is None:
@@ -652,6 +657,15 @@ class Companion:
         self._reference = reference
         out.append(reference)
         out.append(self.link.pack(message))
+
+    def _fenced_in(self, reference: Reference, out: list[Output]) -> Reference:
+        """The reference, or the last one inside the fence, at rest: no setpoint is ever outside it."""
+        if self.fence is None or self._reference is None or self.fence.inside(reference.position_m) >= 0.0:
+            return reference
+        last = self._reference
+        if last.velocity_m.any():
+            out.append(Note(Level.ERROR, "the setpoint is outside the fence: the last place inside is held"))
+        return Reference(last.position_m, np.zeros(3), np.zeros(3), last.yaw)
 
     def _takes_setpoints(self) -> bool:
         """Whether a setpoint is wanted in this phase by this autopilot."""
