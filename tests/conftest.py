@@ -3,7 +3,6 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import pytest
 
@@ -62,7 +61,6 @@ def fly() -> Callable[..., Flight]:
         operator: Callable[[Companion, int], Order | None] = lambda companion, now_us: None,
         between: Callable[[VehicleCore], VehicleCore] = lambda vehicle: vehicle,
         taps: Sequence[Tap] = (),
-        autopilot: Literal["px4", "ardupilot"] = "px4",
         ground_links: tuple[str, ...] = (),
     ) -> Flight:
         parsed = parse_mission(mission.encode(), "test.yaml")
