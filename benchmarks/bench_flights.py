@@ -1,4 +1,4 @@
-"""Whole flights in lockstep, scored: `python -m benchmarks.bench_flights [known] [movers] [links] [--seeds N] [--jobs N]`.
+"""Whole flights in lockstep, scored: `python -m benchmarks.bench_flights [known movers links] [--seeds N] [--jobs N]`.
 
 known : the worlds of `planner.families`, map known, both autopilots. A flight counts when it lands as planned at the
     goal, keeps the clearance its mission asks of the plan to within what tracking costs, and tracks at p95 <= 0.25 m.

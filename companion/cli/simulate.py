@@ -15,6 +15,7 @@ from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.missionfile import parse_mission, read_mission_file
+from companion.testing.taps import surroundings
 from companion.verdict import FlightMeter, judge
 from fakevehicle.config import Autopilot
 from fakevehicle.vehicle import Vehicle
@@ -45,6 +46,8 @@ def simulate_mission(path: Path, seed: int, record: Path | None, autopilot: Auto
             recorder = stack.enter_context(Recorder(record, threaded=False, **header(companion, data)))
         recording = RecordingTap(companion, recorder)
         taps: list[Tap] = [meter, recording, stack.enter_context(show.ProgressLine(companion, meter, out))]
+        around = surroundings(companion, vehicle)
+        taps += [] if around is None else [around]
         wall, cpu = time.perf_counter(), time.process_time()
         limit_s = LIMIT_S + sum(step.hold.seconds for step in mission.steps if step.hold is not None)
         end_us = fly_lockstep(
@@ -54,7 +57,7 @@ def simulate_mission(path: Path, seed: int, record: Path | None, autopilot: Auto
     if not companion.over:
         late = f"not over after {limit_s:g} s of simulated time"
         companion.failure = STOPPED if operator.stop() else companion.failure or late
-    verdict = judge(companion, meter)
+    verdict = judge(companion, meter, None if around is None else around.least)
     simulated_s, sha256 = end_us / 1e6, recording.outputs.hexdigest()
     result = {
         **show.verdict_json(verdict),

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from companion.cli.vehicle import LINK, build_vehicle, seen_world
+from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
@@ -20,7 +20,7 @@ from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
 from companion.seam import Order
 from companion.testing.spec import FlightResult, FlightSpec
-from companion.testing.taps import Innovations, Story, Surroundings
+from companion.testing.taps import Innovations, Story, Surroundings, surroundings
 from companion.testing.wire import FaultyWire
 from companion.verdict import FlightMeter, Verdict, judge
 from fakevehicle.vehicle import Vehicle
@@ -117,7 +117,7 @@ class Flight:
         """
         spec, companion = self.spec, self.companion
         meter, story, innovations = FlightMeter(companion), Story(companion), Innovations()
-        around = self._surroundings()
+        around = surroundings(companion, self.vehicle)
         every: list[Tap] = [meter, story, innovations, *([] if around is None else [around]), *taps]
         limit_s = spec.limit_s + sum(step.hold.seconds for step in self.mission.steps if step.hold is not None)
         cpu = time.process_time()
@@ -156,14 +156,6 @@ class Flight:
             recording=spec.record,
         )
         return self.result
-
-    def _surroundings(self) -> Surroundings | None:
-        """Where something appears or moves; of the rest the verdict knows."""
-        world = self.mission.world
-        seen = seen_world(self.mission) if world.popups or world.movers else None
-        if seen is None:
-            return None
-        return Surroundings(self.companion, self.vehicle, seen, self.mission.vehicle.radius)
 
 
 def fly(spec: FlightSpec) -> FlightResult:

@@ -156,8 +156,9 @@ def _file(request: pytest.FixtureRequest) -> Path:
     marker = request.node.get_closest_marker("mission")
     if marker is None or len(marker.args) != 1:
         pytest.fail('expected a mark that names one mission, as in @pytest.mark.mission("hop.yaml")', pytrace=False)
-    beside = request.path.parent / marker.args[0]
-    return beside if beside.exists() else request.config.rootpath / marker.args[0]
+    name = str(marker.args[0])
+    beside = request.path.parent / name
+    return beside if beside.exists() else request.config.rootpath / name
 
 
 def _wind(

@@ -2,6 +2,7 @@
 
 from typing import Protocol
 
+from companion.cli.vehicle import seen_world
 from companion.core import Companion
 from companion.drivers.tick import Tick
 from companion.seam import Note
@@ -64,6 +65,13 @@ class Surroundings:
         self.least = gap if self.least is None else min(self.least, gap)
         if gap < 0.0 and self.touched_us is None:
             self.touched_us, self.touched = tick.now_us, f"touched {what} at {tick.now_us / 1e6:.2f} s"
+
+
+def surroundings(companion: Companion, vehicle: HasTruth) -> Surroundings | None:
+    """A tap for a mission in which something appears or moves; None: of the rest the verdict knows."""
+    mission = companion.mission
+    seen = seen_world(mission) if mission.world.popups or mission.world.movers else None
+    return None if seen is None else Surroundings(companion, vehicle, seen, mission.vehicle.radius)
 
 
 _STATUS = {
