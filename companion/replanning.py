@@ -29,6 +29,8 @@ from planner import Trajectory
 from planner.backup import dash
 
 PERIOD_US, LONGEST_US = 100_000, 400_000
+RESTING_US = 500_000
+"""Between two questions of a vehicle that rests where nothing moves."""
 LATE = 3
 LADDER = (1.0, 0.85, 0.7)
 """Parts of the radius with which a plan from scratch is tried in turn, where noise has put cells within the radius."""
@@ -66,7 +68,7 @@ class Replanning:
         self._mission, self._itinerary, self._sight, self._seed = mission, itinerary, sight, seed
         self._hull = mission.vehicle.radius + TIGHTEST
         self._said: list[Note] = []
-        self._period_us = PERIOD_US
+        self._period_us = self._asked_period_us = PERIOD_US
         self._requests = 0
         self._aim: PlanWanted | None = None  # the leg that is replanned; None: none is
         self._due_us = 0  # the next boundary
@@ -106,14 +108,21 @@ class Replanning:
         if aim is not self._aim:
             self._forget()
             self._aim, self._due_us = aim, flight_us
+        scratch = self._cold_answer
+        if scratch is not None and scratch.flown is not None and not flown.to_goal and flight_us >= end_us(flown):
+            self._due_us = min(self._due_us, flight_us)  # at rest, with a way on: no need to wait
         if flight_us < self._due_us:
             return []
         boundary = self._due_us
         flown = self._decide(boundary, flown)
         self._itinerary.follow(flight_us, flown)
-        self._due_us = boundary + self._period_us
+        resting = not flown.to_goal and boundary >= end_us(flown) and not len(self._sight.tracks)
+        period_us = max(RESTING_US, self._period_us) if resting else self._period_us
+        self._fresh |= period_us != self._asked_period_us
+        self._asked_period_us = period_us
+        self._due_us = boundary + period_us
         if self._due_us <= flight_us:  # whole periods without a tick: they are over
-            self._due_us = flight_us + self._period_us
+            boundary, self._due_us = flight_us, flight_us + period_us
             self._fresh, self._backup = True, None
         wanted = [self._question(boundary, flown)]
         wanted += self._from_scratch(flight_us, flown)
@@ -232,8 +241,8 @@ class Replanning:
         wanted = ReplanWanted(
             request_id=self._requests,
             now_us=boundary,
-            switch_us=boundary + self._period_us,
-            period_us=self._period_us,
+            switch_us=boundary + self._asked_period_us,
+            period_us=self._asked_period_us,
             goal_m=self._aim.goal_m,
             limits=self._aim.limits,
             radius=self._radius,

@@ -162,8 +162,8 @@ def test_at_a_stop_a_plan_from_scratch_is_asked_for_from_where_it_ends_and_flown
 
 def test_a_goal_walled_off_ends_at_a_stop_with_the_trouble_told():
     flight = Flight()
-    flight.run(12.0, lambda t: wall(15.0, 0.0, 20.0))
-    assert flight.place()[0] < 15.0
+    flight.run(7.0, lambda t: wall(12.0, 0.0, 20.0))
+    assert flight.place()[0] < 12.0
     assert flight.replanning.trouble
     assert not flight.leg.what.to_goal
 
