@@ -1,0 +1,25 @@
+"""Every mission file we ship is flown, and holds what it expects."""
+
+from pathlib import Path
+
+import pytest
+
+from companion.cli.test import mission_files
+from companion.testing.flight import fly
+from companion.testing.spec import FlightSpec
+
+MISSIONS = list(mission_files([Path(__file__).parents[2] / "missions"]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("file", MISSIONS, ids=lambda file: file.name)
+def test_a_mission_file_holds_what_it_expects_with_the_other_autopilot(file: Path) -> None:
+    result = fly(FlightSpec(file, autopilot="ardupilot", seed=2))
+    assert result.ok, f"{result.cause}\n{result.story}"
+
+
+@pytest.mark.parametrize("name", ["popup_wall.yaml", "movers.yaml"])
+def test_what_appears_and_what_moves_is_not_touched(name: str) -> None:
+    result = fly(FlightSpec(MISSIONS[0].parent / name))
+    assert result.ok, f"{result.cause}\n{result.story}"
+    assert result.verdict.min_clearance_m == result.min_clearance_m > 0.0
