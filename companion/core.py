@@ -61,6 +61,8 @@ STREAM_BEFORE_ASKING_US = 500_000
 CONFIRM_US = 2_000_000
 """An accepted command whose effect does not show after this is given again; PX4's HEARTBEAT is up to 1 s late."""
 CONFIRM_TRIES = 5
+ESTIMATOR_FRESH_US = 2_000_000
+"""What was said of the estimator before that is not held against it."""
 POSITION_FRESH_US = 200_000
 """A way back begins where the vehicle is now, not where it was before it fell silent."""
 TEXT_FRESH_US = 3_000_000
@@ -359,7 +361,7 @@ class Companion:
             came_down=came_down,
             on_ground=on_ground,
             mode_asked=self.phase in (Phase.REJOINING, Phase.LANDING) and self._command is not None and self._asking,
-            estimator=autopilot.estimator_lost(t),
+            estimator=autopilot.estimator_lost(t) if now_us - (t.estimator_us or 0) < ESTIMATOR_FRESH_US else "",
             rejected=tuple(t.rejected),
             error_m=error,
             battery=t.battery,

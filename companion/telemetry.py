@@ -67,6 +67,7 @@ class Telemetry:
     landed_state: int = 0  # MAV_LANDED_STATE
     prearm_ok: bool = False  # SYS_STATUS: every pre-arm check passes
     battery: float | None = None  # what is left, 0..1
+    estimator_us: int | None = None
     estimator_flags: int | None = None  # of ESTIMATOR_STATUS (PX4) or EKF_STATUS_REPORT (ArduPilot)
     rejected: list[str] = field(default_factory=list)  # whose innovation is outside its gate
     parameters: dict[str, bytes] = field(default_factory=dict)  # the raw four bytes of param_value, for those asked for
@@ -181,11 +182,11 @@ class Telemetry:
         self.battery = m.battery_remaining / 100.0 if m.battery_remaining >= 0 else None
 
     def _estimator_status(self, now_us: int, m: Any) -> None:
-        self.estimator_flags = m.flags
+        self.estimator_us, self.estimator_flags = now_us, m.flags
         self._rejects(m.vel_ratio, m.pos_horiz_ratio, m.pos_vert_ratio, m.mag_ratio)
 
     def _ekf_status(self, now_us: int, m: Any) -> None:
-        self.estimator_flags = m.flags
+        self.estimator_us, self.estimator_flags = now_us, m.flags
         self._rejects(m.velocity_variance, m.pos_horiz_variance, m.pos_vert_variance, m.compass_variance)
 
     def _rejects(self, velocity: float, horizontal: float, height: float, magnetometer: float) -> None:
