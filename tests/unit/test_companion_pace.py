@@ -52,9 +52,6 @@ def test_at_3_m_per_s_it_stops_within_2_m_and_goes_on_from_there():
     assert_smooth(times, *walked(pace, cruise, times), LIMITS.acceleration)
     again = begin + 5_000_000
     pace.go(again, go_us(cruise, stopped.us * 1e-6, LIMITS))
-    times = np.arange(again - 200_000, again + 2_000_000, TICK_US)
-    with pytest.raises(AssertionError):  # what came before `go` is forgotten: its times are not asked for again
-        assert_smooth(times, *walked(pace, cruise, times), LIMITS.acceleration)
     times = np.arange(again, again + 2_000_000, TICK_US)
     position, velocity, acceleration = walked(pace, cruise, times)
     assert_smooth(times, position, velocity, acceleration, LIMITS.acceleration)
@@ -80,7 +77,7 @@ def test_standing_at_once_is_where_it_was():
 def test_a_circle_is_round_smooth_within_the_limits_and_from_rest_to_rest(radius, turns, clockwise):
     angle = 2 * math.pi * turns * (1 if clockwise else -1)
     circle = Circle.within(np.array([5.0, -2.0, -3.0]), 0.7, radius, angle, LIMITS)
-    times = np.linspace(0, circle.duration, 4001)
+    times = np.linspace(0, circle.duration, 40_001)
     states = [circle.state(t) for t in times]
     position, velocity, acceleration = (np.array([s[k] for s in states]) for k in range(3))
     np.testing.assert_allclose(np.linalg.norm(position - (5, -2, -3), axis=1), radius, rtol=1e-12)
