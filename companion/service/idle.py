@@ -1,8 +1,9 @@
 """Between flights: a step machine like the core that looks on, forwards, and answers ground stations.
 
-It hears the vehicle, says HEARTBEAT once a second as the companion it is, and routes packets; it sends the vehicle
-nothing else. `over` turns true when a flight shall begin: a ground station or a person asks for it, or it begins by
-itself as soon as a vehicle stands there (`autostart`).
+It hears the vehicle, says HEARTBEAT once a second as the companion it is, and routes packets. The vehicle is sent
+nothing else, unless a plan waits for the place where it stands: that is asked for once a second until it is told.
+`over` turns true when a flight shall begin: a ground station or a person asks for it, or it begins by itself as soon as
+a vehicle stands there (`autostart`).
 """
 
 from collections.abc import Iterable
@@ -11,10 +12,10 @@ from typing import Any
 from companion.autopilots import AUTOPILOTS
 from companion.core import CompanionConfig
 from companion.ground.router import Router
-from companion.hooks import Ground, NobodyAsks
+from companion.ground.station import GroundStation
 from companion.seam import Input, Level, Note, Order, Output
 from companion.telemetry import Telemetry
-from companion.vehiclelink import VEHICLE_LINK, VehicleLink
+from companion.vehiclelink import AUTOPILOT_COMPONENT, VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -30,25 +31,27 @@ class Idle:
     Parameters
     ----------
     config : as a flight's.
-    ground : who answers ground stations.
-
     Attributes
     ----------
     mission : name of the mission that would be flown; empty: there is none.
     why_not : why none can begin now, whatever the vehicle does; empty: one can.
     autostart : begin as soon as a vehicle stands there.
     start_asked : a flight shall begin.
+    preparing : one is about to; `cancelled` says that somebody does not want it any more.
+    place_wanted : a plan waits for where the vehicle stands.
+    station : answers ground stations.
     link, telemetry : of the vehicle; read only.
     """
 
     TICK_US = 20_000
 
-    def __init__(self, config: CompanionConfig, ground: Ground | None = None) -> None:
+    def __init__(self, config: CompanionConfig) -> None:
         self.mission = ""
         self.why_not = ""
         self.autostart = False
         self.start_asked = False
-        self.ground: Ground = NobodyAsks() if ground is None else ground
+        self.preparing = self.cancelled = self.place_wanted = False
+        self.station = GroundStation(lambda: self.link.target)
         self._config = config
         self._router = Router(config.ground_links)
         self.link, self.telemetry = VehicleLink(config.system_id, config.speaks_first), Telemetry()
@@ -71,12 +74,14 @@ class Idle:
         out: list[Output] = []
         for item in inputs:
             self._take(now_us, item, out)
-        out.extend(self.ground.step(now_us))
+        out.extend(self.station.step(now_us))
         self._look(now_us, out)
         if not 0 < self._heartbeat_due_us - now_us <= HEARTBEAT_US:  # due, or the clock was set back between flights
             self._heartbeat_due_us = now_us + HEARTBEAT_US
             beat = self.link.pack(_heartbeat())
             out.extend([beat] if self.link.may_speak else [])
+            if self.place_wanted and self._heard and self.telemetry.global_e7 is None:
+                out.append(self.link.pack(_where(self.link.target)))
             out.extend(Datagram(link, beat.data) for link in self._config.ground_links)
         if self.autostart and self._first_us is not None and now_us - self._first_us >= SETTLE_US:
             self.start_asked = self.start_asked or not self._refusal()
@@ -84,6 +89,9 @@ class Idle:
 
     def obey(self, order: Order) -> str:
         """Carry out an order: why it cannot be done, or nothing."""
+        if order.name in ("land", "abort", "return") and self.preparing:
+            self.cancelled = True
+            return ""
         if order.name != "start":
             return "there is no flight"
         reason = self._refusal()
@@ -106,7 +114,7 @@ class Idle:
                         self.telemetry.take(now_us, packet, self.link.decoder)
                 out.extend(self._router.route(now_us, item, self.link.system_id, self.link.peer))
             case Datagram(link=link) if link in self._config.ground_links:
-                out.extend(self.ground.take(now_us, item, self.obey))
+                out.extend(self.station.take(now_us, item, self.obey))
                 routed = self._router.route(now_us, item, self.link.system_id, self.link.peer)
                 out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
             case Order():
@@ -132,6 +140,11 @@ class Idle:
             self._first_us = None
             self.link, self.telemetry = VehicleLink(self._config.system_id, self._config.speaks_first), Telemetry()
         self._heard = heard
+
+
+def _where(system_id: int) -> Any:
+    place, request = mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT, mavlink.MAV_CMD_REQUEST_MESSAGE
+    return mavlink.MAVLink_command_long_message(system_id, AUTOPILOT_COMPONENT, request, 0, place, 0, 0, 0, 0, 0, 0)
 
 
 def _heartbeat() -> Any:

@@ -34,14 +34,20 @@ class Missions:
     ready : the next mission; None: there is none, and `why_not` says why.
     """
 
+    UPLOADED = "uploaded.plan"
+
     def __init__(self, file: Path | None = None, folder: Path | None = None) -> None:
         self._file, self._folder = file, folder
         self._flown: set[str] = set()
+        self._uploaded: Ready | None = None
         self.ready: Ready | None = None
         self.why_not = "there is no mission"
 
     def look(self) -> None:
-        """Read what comes next; a file that is none is told by `why_not`."""
+        """Read what comes next; `why_not` tells of a file that is none. What was uploaded stays until it is cleared."""
+        if self._uploaded is not None:
+            self.ready, self.why_not = self._uploaded, ""
+            return
         path = self._file if self._folder is None else self._next()
         if path is None:
             self.ready, self.why_not = None, "there is no mission" if self._folder is None else "no mission is left"
@@ -52,9 +58,16 @@ class Missions:
         except MissionError as error:
             self.ready, self.why_not = None, error.args[0].splitlines()[0]
 
-    def put(self, ready: Ready) -> None:
-        """A ground station's mission comes next, before what the files say."""
-        self.ready, self.why_not = ready, ""
+    def upload(self, data: bytes | None) -> None:
+        """A ground station's plan comes next, before what the files say; None: it was cleared."""
+        self._uploaded = None
+        if data is not None:
+            try:
+                self._uploaded = Ready(self.UPLOADED, data, parse_mission(data, self.UPLOADED))
+            except MissionError as error:
+                self.ready, self.why_not = None, error.args[0].splitlines()[0]
+                return
+        self.look()
 
     def done(self) -> None:
         """The mission that was ready has been flown."""

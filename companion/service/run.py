@@ -26,7 +26,10 @@ from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import Pace, fly_realtime
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap, Tick
+from companion.geodesy import Geodetic
+from companion.ground.station import GroundStation, plan_file
 from companion.phases import AIRBORNE
+from companion.planfiles.items import Item
 from companion.seam import Level, Note, Order, PlanReady, PlanWanted, ReplanReady, ReplanWanted
 from companion.service.http import Board, served
 from companion.service.idle import Idle
@@ -98,7 +101,8 @@ class Service:
         self._flights = 0
         self._state = "starting"
         self._links: Mapping[str, UdpLink] = {}
-        self._put_up = 0
+        self._uploads = 0  # plans of ground stations taken so far
+        self._plan: list[Item] | None = None  # one that waits for the vehicle's place
         self._phase: Callable[[], str] = lambda: self._state
         self._version = _version()
 
@@ -133,7 +137,8 @@ class Service:
         """Look on until a flight shall begin; None: the service shall end."""
         self._state = "idle"
         while not self._signals.asked:
-            if self._missions.ready is None:
+            self._take_upload()
+            if self._missions.ready is None and self._plan is None:
                 before = self._missions.why_not
                 self._missions.look()
                 if self._missions.why_not not in (before, ""):
@@ -141,17 +146,53 @@ class Service:
             ready = self._missions.ready
             self._idle.mission = "" if ready is None else ready.mission.name
             self._idle.why_not = self._missions.why_not
-            self._idle.autostart = self._config.autostart and ready is not None and self._may_go_on()
-            until_s = time.monotonic() + LOOK_S
-            self._drive_idle(lambda until_s=until_s, ready=ready: ready is None and time.monotonic() > until_s)  # type: ignore[misc]
+            self._idle.autostart = self._config.autostart and ready is not None and self._may_go_on(ready)
+            self._drive_idle(self._something_new(ready))
             if self._idle.start_asked and ready is not None:
                 self._idle.start_asked = False
                 return ready
         return None
 
-    def _may_go_on(self) -> bool:
-        """Whether the next flight may begin by itself: one file is flown once so, and nothing after a failure."""
+    def _something_new(self, ready: Ready | None) -> Callable[[], bool]:
+        """Tells when there is something else to look at than the vehicle."""
+        until_s = time.monotonic() + LOOK_S
+        missions = self._idle.station.missions
+        return lambda: (
+            missions.uploads != self._uploads
+            or (self._plan is not None and self._place() is not None)
+            or (ready is None and time.monotonic() > until_s)
+        )
+
+    def _take_upload(self) -> None:
+        """A plan that a ground station has put here, as soon as it is known where the vehicle stands."""
+        missions = self._idle.station.missions
+        if missions.uploads != self._uploads:
+            self._uploads, self._plan = missions.uploads, list(missions.items) or None
+            self._missions.upload(None)
+            count = len(missions.items)
+            self._say(Level.INFO, f"a plan of {count} items was uploaded" if count else "the plan was cleared")
+        place = self._place()
+        self._idle.place_wanted = self._plan is not None
+        if self._plan is None:
+            return
+        if place is None:
+            self._missions.ready, self._missions.why_not = None, "where the vehicle stands is not known yet"
+            return
+        self._missions.upload(plan_file(self._plan, place))
+        self._plan = None
+        if self._missions.ready is None:
+            self._say(Level.WARNING, self._missions.why_not)
+
+    def _place(self) -> Geodetic | None:
+        """Where on the earth the vehicle stands."""
+        place = self._idle.telemetry.global_e7
+        return None if place is None else Geodetic(place[0] * 1e-7, place[1] * 1e-7, place[2] * 1e-3)
+
+    def _may_go_on(self, ready: Ready) -> bool:
+        """Whether it may begin by itself: one file is flown once so, and nothing uploaded, nor after a failure."""
         last = self._last_flight
+        if ready.file == Missions.UPLOADED:
+            return False
         return last is None or (last["ok"] and self._config.missions_dir is not None)
 
     def _drive_idle(self, enough: Callable[[], bool]) -> None:
@@ -172,8 +213,12 @@ class Service:
             stack.callback(planning.close)
             self._idle.mission, self._idle.why_not, self._idle.autostart = mission.name, "a flight is prepared", False
             mission.planner_world().distance(np.zeros((1, 3)))
-            self._drive_idle(planning.warmed)
-            if self._signals.asked:
+            self._idle.preparing, self._idle.cancelled = True, False
+            self._drive_idle(lambda: planning.warmed() or self._idle.cancelled)
+            self._idle.preparing = False
+            if self._signals.asked or self._idle.cancelled:
+                self._say(Level.WARNING, f"{mission.name}: cancelled before it began")
+                self._config = self._config.model_copy(update={"autostart": False})
                 return 0
             companion = Companion(mission, self._core)
             meter = FlightMeter(companion)
@@ -205,6 +250,9 @@ class Service:
         level = Level.INFO if verdict.ok else Level.WARNING
         self._say(level, f"{mission.name}: {outcome}", flight=self._last_flight)
         self._missions.done()
+        if isinstance(companion.ground, GroundStation) and companion.ground.missions.uploads:
+            here = self._idle.station.missions  # a plan that came in flight
+            here.items, here.uploads = companion.ground.missions.items, here.uploads + 1
         return int(left)
 
     def _close(self, recorder: Recorder, pace: Pace) -> None:

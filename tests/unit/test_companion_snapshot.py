@@ -10,7 +10,10 @@ from typing import Any
 import pytest
 
 from companion.core import Companion, CompanionConfig
+from companion.geodesy import Geodetic
+from companion.ground.station import plan_file
 from companion.missionfile import load_mission
+from companion.planfiles.items import Item
 from companion.seam import Level, Note, Order
 from companion.service.http import MOST_THREADS, Board, render, served
 from companion.service.idle import Idle
@@ -104,6 +107,32 @@ def test_an_order_to_start_is_carried_out_or_refused_with_the_reason(
     assert service.idle.obey(Order("start")) == reason
     assert service.idle.over == (not reason)
     assert service.idle.obey(Order("land")) == "there is no flight"
+
+
+def test_a_plan_is_uploaded_between_flights_and_the_vehicle_is_asked_where_it_stands() -> None:
+    service = Service(ground_links=("out0",))
+    service.run(2, beat())
+    plan = [(22, 3, 47.397742, 8.545594, 5.0), (16, 3, 47.3979, 8.5458, 6.0), (20, 2, 0.0, 0.0, 0.0)]
+    service.run(0.02, said(mavlink.MAVLink_mission_count_message(1, 191, len(plan), 0), "out0", 255, 190))
+    for k, (command, frame, latitude, longitude, altitude) in enumerate(plan):
+        place = (round(latitude * 1e7), round(longitude * 1e7), altitude)
+        item = mavlink.MAVLink_mission_item_int_message(1, 191, k, frame, command, 0, 1, 0, 0, 0, 0, *place, 0)
+        service.run(0.02, said(item, "out0", 255, 190))
+    assert service.idle.station.missions.uploads == 1
+    service.idle.place_wanted = True
+    asked = [d for d in to_vehicle(service.run(3, beat())) if d.data[7:10] == b"\x4c\0\0"]
+    assert 2 <= len(asked) <= 4
+    where = mavlink.MAVLink_global_position_int_message(100, 473977418, 85455939, 488_000, 0, 0, 0, 0, 0)
+    service.run(1, beat(), said(where))
+    assert not [d for d in to_vehicle(service.run(3, beat())) if d.data[7:10] == b"\x4c\0\0"]
+
+
+def test_a_flight_that_is_prepared_can_be_called_off() -> None:
+    service = Service()
+    service.run(1, beat())
+    service.idle.preparing = True
+    assert service.idle.obey(Order("abort")) == ""
+    assert service.idle.cancelled
 
 
 def test_a_vehicle_that_falls_silent_and_comes_back_from_another_port_is_taken_up_again() -> None:
@@ -217,6 +246,23 @@ def test_the_missions_of_a_folder_come_once_each_by_name_and_a_file_again_and_ag
     broken = Missions(file=tmp_path / "notes.txt")
     broken.look()
     assert "found 'no mission', expected a mapping" in broken.why_not
+
+
+def test_an_uploaded_plan_is_flown_before_the_files_until_it_is_cleared() -> None:
+    missions = Missions(file=Path("missions/l_shape.yaml"))
+    missions.look()
+    items = [Item(22, 3, (0.0,) * 4 + (47.397742, 8.545594, 5.0)), Item(20, 2, (0.0,) * 7)]
+    missions.upload(plan_file(items, Geodetic(47.397742, 8.545594, 488.0)))
+    for _ in range(2):
+        assert missions.ready is not None
+        assert missions.ready.file == Missions.UPLOADED
+        missions.done()
+    missions.upload(None)
+    assert missions.ready is not None
+    assert missions.ready.mission.name == "L-shaped wall"
+    missions.upload(b"no plan")
+    assert missions.ready is None
+    assert missions.why_not.startswith("uploaded.plan: ")
 
 
 def test_the_oldest_of_our_recordings_make_room_and_other_files_stay(tmp_path: Path) -> None:
