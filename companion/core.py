@@ -61,6 +61,8 @@ STREAM_BEFORE_ASKING_US = 500_000
 CONFIRM_US = 2_000_000
 """An accepted command whose effect does not show after this is given again; PX4's HEARTBEAT is up to 1 s late."""
 CONFIRM_TRIES = 5
+PACE_WAIT_US = 4_000_000
+"""So long a ready vehicle is waited for until its pace has been measured."""
 ESTIMATOR_FRESH_US = 2_000_000
 """What was said of the estimator before that is not held against it."""
 POSITION_FRESH_US = 200_000
@@ -408,7 +410,8 @@ class Companion:
         if reasons != self._readiness:
             self._readiness = reasons
             out.append(Note(Level.INFO, "vehicle ready" if not reasons else f"waiting: {', '.join(reasons)}"))
-        if not reasons and not self._queue and self._command is None and not unread:
+        paced = self.clock.known or waited_us > PACE_WAIT_US
+        if not reasons and not self._queue and self._command is None and not unread and paced:
             return Event.READY
         if waited_us > self.config.wait_ready_s * 1e6:
             return self._refused(f"the vehicle is not ready after {waited_us / 1e6:.0f} s: {', '.join(reasons)}")

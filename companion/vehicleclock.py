@@ -3,7 +3,7 @@
 A simulator may run faster or slower than the wall, and a real one drifts a little. What is flown must take the
 vehicle's time, not ours: a reference that runs at another pace asks for other speeds than it says. The pace is read
 from the time since boot in the vehicle's messages. A message is late by what the link took, never early, so of each
-second the one with the greatest (time since boot - our time) counts, and the pace is the slope over some seconds:
+bucket the one with the greatest (time since boot - our time) counts, and the pace is the slope over some seconds:
 
     rate = 1 + (offset_b - offset_a) / (t_b - t_a)
 
@@ -13,15 +13,15 @@ ours and never jumps or runs backwards; in the air its rate changes by `SLEW` at
 
 from collections import deque
 
-BUCKET_US = 1_000_000
-BUCKETS = 9
+BUCKET_US = 500_000
+BUCKETS = 17
 FEWEST = 5
-"""Messages in a second that make it worth a look."""
+"""Messages in a bucket that make it worth a look."""
 SHORTEST_US = 1_500_000
 """No slope over less than this."""
 DEAD_BAND = 0.003
 JITTER_US = 10_000
-"""What the least delay of a second may differ by from one second to the next."""
+"""What the least delay of a bucket may differ by from one to another."""
 SLEW = 0.05
 """Of the rate, a second."""
 SLOWEST, FASTEST = 0.1, 10.0
@@ -41,6 +41,11 @@ class VehicleClock:
         self._count = 0
         self._now_us: int | None = None
         self._flight_us = 0
+
+    @property
+    def known(self) -> bool:
+        """Whether the rate has been measured."""
+        return self._measured() is not None
 
     def heard(self, now_us: int, boot_ms: int) -> None:
         """A time since boot that came just now; packets that came late or twice must not get here."""
