@@ -140,6 +140,7 @@ class Companion:
         self._going_home = False
         self._withheld = False
         self._holding = ""
+        self._crossing = ""
         self._readiness: tuple[str, ...] = ()
         self._warned: tuple[int, str] | None = None  # when, what: the vehicle's last warning
         self._reference: Reference | None = None  # of the tick before
@@ -432,7 +433,13 @@ class Companion:
 
     def _engaging(self, now_us: int, out: list[Output]) -> Event | None:
         if self.autopilot.in_control(self.telemetry):
-            return Event.MODE_CONFIRMED
+            crossing = self.replanning.in_the_way(self._flight_us)
+            if crossing and now_us - self._entered_us < self.config.wait_ready_s * 1e6:
+                if not self._crossing:
+                    out.append(Note(Level.INFO, f"waiting on the ground: {crossing}"))
+                self._crossing = crossing
+                return None
+            return self._refused(f"the climb is never clear: {crossing}") if crossing else Event.MODE_CONFIRMED
         return Event.REFUSED if self._command_failed(now_us, self.autopilot.take_control) else None
 
     def _arming(self, now_us: int, out: list[Output]) -> Event | None:

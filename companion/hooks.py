@@ -62,6 +62,10 @@ class Replanning(Protocol):
         """Once a tick while FLYING; the questions to ask now."""
         ...
 
+    def in_the_way(self, flight_us: int) -> str:
+        """What is about to cross the climb, before anything has left the ground; or nothing."""
+        ...
+
     def take_said(self) -> list[Note]:
         """What people should know; each is told once."""
         ...
@@ -105,6 +109,9 @@ class NothingReplanned:
 
     def step(self, flight_us: int, pose: Pose) -> list[ReplanWanted]:
         return []
+
+    def in_the_way(self, flight_us: int) -> str:
+        return ""
 
     def take_said(self) -> list[Note]:
         return []

@@ -32,6 +32,8 @@ PERIOD_US, LONGEST_US = 100_000, 400_000
 RESTING_US = 500_000
 """Between two questions of a vehicle that rests where nothing moves."""
 LATE = 3
+CLIMB_S, CLIMB_GROWTH = 3.0, 0.1
+"""Beside the climb itself its column is to be clear for so long [s]; a mover's uncertainty there [m/s]."""
 LADDER = (1.0, 0.85, 0.7)
 """Parts of the radius with which a plan from scratch is tried in turn, where noise has put cells within the radius."""
 TIGHTEST = 0.03
@@ -93,6 +95,21 @@ class Replanning:
             self._answer = ready
         else:
             self.late += self._aim is not None
+
+    def in_the_way(self, flight_us: int) -> str:
+        """What is about to cross the climb, before anything has left the ground; or nothing."""
+        climb = self._mission.steps[0].takeoff
+        top = 0.0 if climb is None else climb.altitude
+        ahead_s = CLIMB_S + top / self._mission.limits.climb
+        north, east, _ = self._mission.start_m()
+        for mover in self._sight.tracks.movers():
+            for t in np.arange(0.0, ahead_s, 0.1).tolist():
+                age = flight_us / 1e6 + t - mover.stamp
+                x, y, z = (c + v * age for c, v in zip(mover.centre, mover.velocity, strict=True))
+                gap = math.dist((x, y, z), (north, east, min(max(z, -top), 0.0)))
+                if gap < self._mission.seen_radius() + mover.radius + CLIMB_GROWTH * t:
+                    return f"something crosses the climb in {t:.1f} s"
+        return ""
 
     def take_said(self) -> list[Note]:
         """What people should know; each is told once."""
