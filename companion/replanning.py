@@ -23,12 +23,14 @@ from companion.hooks import Pose
 from companion.itinerary import Itinerary
 from companion.mission import Mission
 from companion.motion import JOINT, end_us, joint, state_at
-from companion.seam import Flown, Level, Note, PlanWanted, ReplanReady, ReplanWanted
+from companion.seam import FloatArray, Flown, Level, Note, PlanWanted, ReplanReady, ReplanWanted
 from companion.seeing.sight import Sight
 from planner import Trajectory
 from planner.backup import dash
 
 PERIOD_US, LONGEST_US = 100_000, 400_000
+DRIFT_M, DRIFT_US = 0.5, 300_000
+"""Farther than this from what is flown for this long, and planning begins anew from where the vehicle is."""
 RESTING_US = 500_000
 """Between two questions of a vehicle that rests where nothing moves."""
 LATE = 3
@@ -60,12 +62,14 @@ class Replanning:
     trouble : why the vehicle stands at a stop on the way; empty otherwise.
     asked, late, refused : questions, answers that came too late, answers that the guard refused.
     switches, stops, scratch : new ways on that were flown, stops that were flown, plans from scratch among the former.
+    drifts : starts anew from where the vehicle was, since it was elsewhere than it should be.
     worst_joint : the greatest jump of a switch [m], [m/s], [m/s^2].
     """
 
     def __init__(self, mission: Mission, itinerary: Itinerary, sight: Sight, seed: int) -> None:
         self.trouble = ""
         self.asked = self.late = self.refused = self.switches = self.stops = self.scratch = 0
+        self.drifts = 0
         self.worst_joint = 0.0
         self._mission, self._itinerary, self._sight, self._seed = mission, itinerary, sight, seed
         self._hull = mission.vehicle.radius + TIGHTEST
@@ -86,6 +90,7 @@ class Replanning:
         self._cold_us = 0
         self._rung = 0
         self._stopped_us = 0
+        self._on_track_us = 0
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         """An answer; what was not asked for, or is too late, is dropped."""
@@ -124,7 +129,8 @@ class Replanning:
             return []
         if aim is not self._aim:
             self._forget()
-            self._aim, self._due_us = aim, flight_us
+            self._aim, self._due_us, self._on_track_us = aim, flight_us, flight_us
+        flown = self._where_it_is(flight_us, pose, flown)
         scratch = self._cold_answer
         if scratch is not None and scratch.flown is not None and not flown.to_goal and flight_us >= end_us(flown):
             self._due_us = min(self._due_us, flight_us)  # at rest, with a way on: no need to wait
@@ -146,6 +152,25 @@ class Replanning:
         return wanted
 
     # ---- what to fly --------------------------------------------------------------------------------------------
+
+    def _where_it_is(self, flight_us: int, pose: Pose, flown: Flown) -> Flown:
+        """What is flown; a stop from where the vehicle is, when that is not where it should be, or the frame moved."""
+        error = float(np.linalg.norm(pose.position_m - state_at(flown, flight_us).position))
+        if error <= DRIFT_M:
+            self._on_track_us = flight_us
+        jumped, self._sight.jumped = self._sight.jumped, False
+        if not jumped and flight_us - self._on_track_us <= DRIFT_US:
+            return flown
+        stop = self._stop_from(flight_us, np.array([pose.position_m, pose.velocity_m, np.zeros(3)]))
+        if stop is None:
+            return flown
+        what = "the vehicle's origin moved" if jumped else f"{error:.1f} m from what is flown"
+        self._tell(Level.WARNING, f"{what}: stopping where it is, planning anew")
+        self._itinerary.follow(flight_us, stop)
+        self._pending = self._answer = self._backup = self._cold = self._cold_answer = None
+        self._fresh, self._due_us, self._on_track_us = True, flight_us, flight_us
+        self.drifts += 1
+        return stop
 
     def _decide(self, boundary: int, flown: Flown) -> Flown:
         """What is flown from this boundary on."""
@@ -219,9 +244,12 @@ class Replanning:
 
     def _dash(self, begin_us: int, flown: Flown) -> Flown | None:
         """The quickest stop, straight on, from what is flown at a time."""
+        s = state_at(flown, begin_us)
+        return self._stop_from(begin_us, np.array([s.position, s.velocity, s.acceleration]))
+
+    def _stop_from(self, begin_us: int, state: FloatArray) -> Flown | None:
         assert self._aim is not None
-        limits, s = self._aim.limits, state_at(flown, begin_us)
-        state = np.array([s.position, s.velocity, s.acceleration])
+        limits = self._aim.limits
         points, knots = dash(state, np.zeros(3), 0, np.array([limits.speed, limits.acceleration, limits.jerk]))
         return Flown(Trajectory(points, knots), begin_us, to_goal=False) if len(points) else None
 

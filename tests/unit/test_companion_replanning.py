@@ -77,7 +77,8 @@ class Flight:
             self.waiting = [w for w in self.waiting if w[0] > self.now_us]
             for ready in due:
                 self.replanning.take(ready, self.now_us)
-            pose = Pose(self.now_us, place, np.zeros(3), 0.0, 0.0, 0.0)
+            at = state_at(self.leg.what, self.now_us)
+            pose = Pose(self.now_us, at.position + self.offset, at.velocity, 0.0, 0.0, 0.0)
             for wanted in self.replanning.step(self.now_us, pose):
                 self.asked.append(wanted)
                 if self.late_ticks is not None:
@@ -85,6 +86,8 @@ class Flight:
                     self.waiting.append((self.now_us + self.late_ticks * TICK_US, ready))
             self.said += [note.text for note in self.replanning.take_said()]
             self.now_us += TICK_US
+
+    offset = (0.0, 0.0, 0.0)
 
     def place(self):
         return state_at(self.leg.what, self.now_us).position
@@ -166,6 +169,30 @@ def test_a_goal_walled_off_ends_at_a_stop_with_the_trouble_told():
     assert flight.place()[0] < 12.0
     assert flight.replanning.trouble
     assert not flight.leg.what.to_goal
+
+
+def test_a_vehicle_that_is_blown_off_its_way_is_planned_for_anew_from_where_it_is():
+    flight = Flight()
+    flight.run(3.0)
+    flight.offset = (0.0, 0.8, 0.0)
+    flight.run(0.28)
+    assert flight.replanning.drifts == 0
+    flight.run(0.06)
+    assert flight.replanning.drifts == 1
+    assert flight.place()[1] == pytest.approx(10.8, abs=0.1)
+    flight.offset = (0.0, 0.0, 0.0)
+    flight.run(15.0)
+    assert flight.place() == pytest.approx(GOAL, abs=1e-6)
+
+
+def test_when_the_estimator_moves_its_origin_the_flight_begins_anew_at_once():
+    flight = Flight()
+    flight.run(3.0)
+    flight.sight.jumped = True
+    flight.run(0.02)
+    assert flight.replanning.drifts == 1
+    flight.run(15.0)
+    assert flight.place() == pytest.approx(GOAL, abs=1e-6)
 
 
 def test_the_same_inputs_give_the_same_questions():
