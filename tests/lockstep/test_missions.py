@@ -3,8 +3,21 @@
 import numpy as np
 import pytest
 
+from companion.cli.vehicle import LINK, build_vehicle
+from companion.core import Companion, CompanionConfig
+from companion.drivers.lockstep import fly_lockstep
+from companion.drivers.planning import InlinePlanning
+from companion.drivers.recording import RecordingTap, header
+from companion.drivers.rerun import rerun
+from companion.geodesy import Geodetic
+from companion.ground.station import plan_file
+from companion.missionfile import parse_mission
 from companion.phases import Phase
 from companion.seam import Order, Reference
+from companion.service.idle import Idle
+from companion.verdict import FlightMeter, judge
+from logs.reader import Recording
+from logs.recorder import Recorder
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -291,3 +304,86 @@ def test_a_ground_station_pauses_moves_and_sends_the_flight_home_and_each_comman
     np.testing.assert_allclose(p[-1][:2], (3, 3), atol=1e-6)
     assert not any(m.get_type() == "HEARTBEAT" for _, m in pilot.heard if m.get_srcSystem() != 1)
     smooth(flight)
+
+
+class Uploader(Pilot):
+    """A ground station that hands over a plan and then starts it."""
+
+    ITEMS = ((22, 3, 47.397742, 8.545594, 3.0), (16, 3, 47.39787, 8.545594, 3.0), (20, 2, 0.0, 0.0, 0.0))
+
+    def __init__(self):
+        super().__init__()
+        self.waiting = [mavlink.MAVLink_mission_count_message(1, 191, len(self.ITEMS), 0)]
+
+    def __call__(self, companion, now_us):
+        if now_us > 8_000_000 and self.waiting:  # the vehicle has found its place
+            self.given = [(lambda companion, now_us: True, self.waiting.pop(0))]
+        return super().__call__(companion, now_us)
+
+    def hear(self, tick):
+        before = len(self.heard)
+        super().hear(tick)
+        for _, m in self.heard[before:]:
+            if m.get_type() == "MISSION_REQUEST_INT":
+                command, frame, x, y, z = self.ITEMS[m.seq]
+                place = (round(x * 1e7), round(y * 1e7), z)
+                self.waiting.append(
+                    mavlink.MAVLink_mission_item_int_message(
+                        1, 191, m.seq, frame, command, 0, 1, 0, 0, 0, float("nan"), *place, 0
+                    )
+                )
+
+
+class NobodyPlans:
+    def submit(self, wanted):
+        raise AssertionError("nothing is planned between flights")
+
+    def ready(self):
+        return []
+
+
+class Later:
+    """A vehicle whose clock has run before."""
+
+    def __init__(self, vehicle, gone_us):
+        self.vehicle, self.gone_us, self.TICK_US = vehicle, gone_us, vehicle.TICK_US
+
+    def step(self, now_us, inputs):
+        return self.vehicle.step(now_us + self.gone_us, inputs)
+
+
+def test_without_a_mission_the_companion_idles_takes_an_upload_and_flies_it_when_it_is_told_to_start(tmp_path):
+    config = CompanionConfig(ground_links=("out0",))
+    vehicle = build_vehicle(parse_mission(STRAIGHT.encode(), "straight.yaml"), 1)
+    idle, station = Idle(config), Uploader()
+    gone_us = fly_lockstep(
+        idle,
+        vehicle,
+        LINK,
+        NobodyPlans(),
+        [station.hear],
+        limit_s=12.0,
+        operator=lambda now_us: station(idle, now_us),
+        stop=lambda: idle.station.missions.uploads > 0,
+    )
+    assert [m.type for _, m in station.heard if m.get_type() == "MISSION_ACK"] == [mavlink.MAV_MISSION_ACCEPTED]
+    place = idle.telemetry.global_e7
+    here = Geodetic(place[0] * 1e-7, place[1] * 1e-7, place[2] * 1e-3)
+    data = plan_file(idle.station.missions.items, here)
+    mission = parse_mission(data, "uploaded.plan")
+    idle.mission = mission.name
+    assert idle.obey(Order("start")) == ""
+    assert idle.over
+    companion = Companion(mission, config)
+    meter, ticks = FlightMeter(companion), []
+    recording = tmp_path / "uploaded.mcap"
+    with Recorder(recording, threaded=False, **header(companion, data)) as recorder:
+        taps = [meter, ticks.append, RecordingTap(companion, recorder)]
+        planning = InlinePlanning(mission.planner_world())
+        fly_lockstep(companion, Later(vehicle, gone_us), LINK, planning, taps, limit_s=60.0)
+    verdict = judge(companion, meter)
+    assert verdict.ok, verdict.failure
+    north = (47.39787 - 47.397742) * 111_200
+    assert verdict.track.position_m[:, 0].max() == pytest.approx(north, abs=0.5)
+    assert companion.ground.missions.items == list(mission.plan_items)
+    assert rerun(Recording.open(recording)).comparison.first is None
