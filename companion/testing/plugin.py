@@ -19,10 +19,13 @@ it and tells what the companion said.
 import re
 import shutil
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+
+from companion.errors import CompanionError
 
 if TYPE_CHECKING:  # importing a vehicle takes a second, which tests without flights need not pay
     from companion.core import Companion
@@ -80,15 +83,16 @@ def flight_spec(
 
     link = request.node.get_closest_marker("link")
     wind = request.node.get_closest_marker("wind")
-    return FlightSpec(
-        mission=_file(request),
-        autopilot=flight_autopilot,  # type: ignore[arg-type]  # checked where the vehicle is made
-        seed=flight_seed,
-        **({} if wind is None else _wind(**wind.kwargs)),
-        faults=tuple(str(text) for mark in request.node.iter_markers("fault") for text in mark.args),
-        link=None if link is None else _link(flight_seed, **link.kwargs),
-        record=tmp_path / "flight.mcap",
-    )
+    with _in_one_line():
+        return FlightSpec(
+            mission=_file(request),
+            autopilot=flight_autopilot,  # type: ignore[arg-type]  # checked where the vehicle is made
+            seed=flight_seed,
+            **({} if wind is None else _wind(**wind.kwargs)),
+            faults=tuple(str(text) for mark in request.node.iter_markers("fault") for text in mark.args),
+            link=None if link is None else _link(flight_seed, **link.kwargs),
+            record=tmp_path / "flight.mcap",
+        )
 
 
 @pytest.fixture
@@ -96,7 +100,8 @@ def flight(request: pytest.FixtureRequest, flight_spec: "FlightSpec") -> Iterato
     """The flight, ready to be flown."""
     from companion.testing.flight import Flight
 
-    ready = request.node.stash[_flights] = Flight(flight_spec)
+    with _in_one_line():
+        ready = request.node.stash[_flights] = Flight(flight_spec)
     yield ready
     del request.node.stash[_flights]
 
@@ -150,6 +155,15 @@ def _keep(item: pytest.Item, record: Path) -> Path | None:
     except OSError:
         return None
     return kept
+
+
+@contextmanager
+def _in_one_line() -> Iterator[None]:
+    """A mission or a mark that cannot be is a failure in one line, without a way through our code."""
+    try:
+        yield
+    except (CompanionError, TypeError, ValueError) as error:
+        pytest.fail(str(error), pytrace=False)
 
 
 def _file(request: pytest.FixtureRequest) -> Path:

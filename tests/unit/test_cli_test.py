@@ -73,3 +73,46 @@ def test_a_failing_test_tells_cause_and_story_and_keeps_the_recording(tmp_path: 
     kept = [line.partition(": ")[2] for line in run.stdout.splitlines() if line.startswith("recording: ")]
     assert Path(kept[0]).exists()
     assert Path(kept[0]).is_relative_to(tmp_path)
+
+
+@pytest.mark.slow
+def test_a_mark_that_cannot_be_is_one_clear_line(tmp_path: Path) -> None:
+    (tmp_path / "test_it.py").write_text(
+        f"""
+import pytest
+HOP = pytest.mark.mission({str(MISSIONS / "hop.yaml")!r})
+@HOP
+@pytest.mark.link(loss=2)
+def test_link(flight): pass
+@HOP
+@pytest.mark.fault("gps:lost")
+def test_fault(flight): pass
+@HOP
+@pytest.mark.wind(up=3)
+def test_wind(flight): pass
+@HOP
+@pytest.mark.autopilot("betaflight")
+def test_autopilot(flight): pass
+@pytest.mark.mission("gone.yaml")
+def test_file(flight): pass
+def test_none(flight): pass
+"""
+    )
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-p", "companion.testing.plugin", "-q"]
+    run = subprocess.run(
+        [*command, f"--rootdir={tmp_path}", "-c", "/dev/null", str(tmp_path)],
+        cwd=MISSIONS.parent,
+        capture_output=True,
+        text=True,
+    )
+    assert "6 errors" in run.stdout, run.stdout
+    assert "Traceback" not in run.stdout
+    for said in (
+        "loss 2: expected 0 to 1",
+        "fault 'gps:lost': expected one of",
+        "unexpected keyword argument 'up'",
+        "autopilot 'betaflight': expected one of px4, ardupilot",
+        "gone.yaml: cannot be read",
+        "expected a mark that names one mission",
+    ):
+        assert said in run.stdout
