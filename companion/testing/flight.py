@@ -173,12 +173,17 @@ def first_cause(verdict: Verdict, story: Story, around: Surroundings | None, inn
     What was touched and what the companion blames, by time; then what the mission expects. An innovation that failed
     before is told along.
     """
-    first = "" if verdict.ok else verdict.failure
-    if around is not None and around.touched_us is not None:
-        blamed_us = story.blamed_us
-        first = around.touched if not first or blamed_us is None or around.touched_us < blamed_us else first
+    first, when_us = ("", None) if verdict.ok else (verdict.failure, story.blamed_us)
+    if (
+        around is not None
+        and around.touched_us is not None
+        and (not first or when_us is None or around.touched_us < when_us)
+    ):
+        first, when_us = around.touched, around.touched_us
     if not first and verdict.failed_expectations:
         first = verdict.failed_expectations[0]
     if not first and not verdict.ok:
         first = f"ended {verdict.phase}"
-    return f"{first} (first innovation refused: {innovations.first})" if first and innovations.first else first
+    refused_us = innovations.first_us
+    before = refused_us is not None and (when_us is None or refused_us <= when_us)
+    return f"{first} (first innovation refused: {innovations.first})" if first and before else first

@@ -99,11 +99,12 @@ class Innovations:
 
     Attributes
     ----------
-    first : its name, ratio and time in words; empty: none yet.
+    first, first_us : its name, ratio and time in words, and the time; empty and None: none yet.
     """
 
     def __init__(self) -> None:
         self.first = ""
+        self.first_us: int | None = None
         self._framer, self._decoder = Framer(), mavlink.MAVLink(None)
 
     def __call__(self, tick: Tick) -> None:
@@ -121,6 +122,7 @@ class Innovations:
             message = self._decoder.decode(bytearray(packet.raw))
             ratio, name = max((getattr(message, field), name) for field, name in names)
             if ratio > 1.0 and not self.first:
+                self.first_us = at_us
                 self.first = f"{name} {ratio:.2g} at {at_us / 1e6:.1f} s"
 
 

@@ -1,6 +1,7 @@
 """`companion test`: every mission file against what it expects, the first cause of a failure named; and the plug-in."""
 
 import json
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,9 @@ from pathlib import Path
 import pytest
 
 from companion.cli.test import fly_missions, mission_files
+from companion.testing.flight import fly
+from companion.testing.spec import FlightSpec
+from companion.testing.wire import LinkFaults
 
 MISSIONS = Path(__file__).parents[2] / "missions"
 BROKEN = MISSIONS / "broken"
@@ -54,6 +58,15 @@ def test_a_file_that_is_not_there_is_a_failure_with_its_name(capsys, tmp_path: P
     code, told = flown(capsys, tmp_path, tmp_path / "gone.yaml")
     assert code == 1
     assert "gone.yaml: cannot be read" in told["results"][0]["cause"]
+
+
+def test_a_flight_and_what_came_of_it_can_be_sent_to_another_process() -> None:
+    spec = FlightSpec(BROKEN / "walled_off.yaml", faults=("gps:off@3-4",), link=LinkFaults(loss=0.1), seed=2)
+    result = fly(pickle.loads(pickle.dumps(spec)))
+    again = pickle.loads(pickle.dumps(result))
+    assert again.spec == spec
+    assert (again.cause, again.notes) == (result.cause, result.notes)
+    assert again.said("planning -> failed")
 
 
 def test_an_empty_folder_is_a_wrong_use(capsys, tmp_path: Path) -> None:
