@@ -33,7 +33,7 @@ from companion.ground.station import GroundStation
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
 from companion.mission import Mission
-from companion.offboard import setpoint_message
+from companion.offboard import flaw, setpoint_message
 from companion.phases import AIRBORNE, OVER, STREAMING, Event, Phase, after
 from companion.rejoin import Rejoin
 from companion.replanning import Replanning as Replanned
@@ -138,7 +138,8 @@ class Companion:
         self._plan_refusal = ""
         self._came_down = False
         self._going_home = False
-        self._withheld = False
+        self._withheld = ""
+        self._fastest = max(mission.limits.speed, mission.limits.climb, *(step.speed or 0.0 for step in mission.steps))
         self._holding = ""
         self._crossing = ""
         self._readiness: tuple[str, ...] = ()
@@ -335,7 +336,7 @@ class Companion:
         on_ground = t.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
         booting = autopilot.booting(t) and not t.armed and not on_ground
         comes_down = autopilot.comes_down(t)
-        self._came_down = self.phase is Phase.LANDING and comes_down
+        self._came_down = self.phase is Phase.LANDING and (comes_down or came_down)
         error = 0.0
         if self._reference is not None:
             error = float(np.linalg.norm(t.position_n - self.origin_n - self._reference.position_m))
@@ -657,27 +658,28 @@ class Companion:
             out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if not self._takes_setpoints():
             return
-        reference = self._fenced_in(self._asked_for(now_us), out)
+        reference = self._sound(self._asked_for(now_us), out)
+        if reference is None:
+            return
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
         message = setpoint_message(reference, self.origin_n, time_boot_ms, self.link.target)
         if message is None:
-            if not self._withheld:
-                out.append(Note(Level.ERROR, "the setpoint is not a place to fly to: none is sent"))
-            self._withheld = True
             return
-        self._withheld = False
         self._reference = reference
         out.append(reference)
         out.append(self.link.pack(message))
 
-    def _fenced_in(self, reference: Reference, out: list[Output]) -> Reference:
-        """The reference, or the last one inside the fence, at rest: no setpoint is ever outside it."""
-        if self.fence is None or self._reference is None or self.fence.inside(reference.position_m) >= 0.0:
+    def _sound(self, reference: Reference, out: list[Output]) -> Reference | None:
+        """The reference, or the last sound one at rest; None before there was one."""
+        found = flaw(reference, self.fence, self._fastest, self.mission.limits.acceleration)
+        if not found:
+            self._withheld = ""
             return reference
+        if found != self._withheld:
+            self._withheld = found
+            out.append(Note(Level.ERROR, f"a setpoint is withheld: {found}; the last place before it is held"))
         last = self._reference
-        if last.velocity_m.any():
-            out.append(Note(Level.ERROR, "the setpoint is outside the fence: the last place inside is held"))
-        return Reference(last.position_m, np.zeros(3), np.zeros(3), last.yaw)
+        return None if last is None else Reference(last.position_m, np.zeros(3), np.zeros(3), last.yaw)
 
     def _takes_setpoints(self) -> bool:
         """Whether a setpoint is wanted in this phase by this autopilot."""

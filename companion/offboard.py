@@ -1,10 +1,12 @@
 """From a reference to the SET_POSITION_TARGET_LOCAL_NED that carries it; the only place that builds a type_mask."""
 
+import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from companion.geofence import Geofence
 from companion.seam import Reference
 from wire.dialect import mavlink
 
@@ -45,6 +47,31 @@ FARTHEST = 1e6
 
 FULL = type_mask(position=True, velocity=True, acceleration=True, yaw=True, yaw_rate=False)
 """Position, velocity, acceleration and yaw: 0x800. Position alone would be input-shaped by the autopilot, and late."""
+
+
+SPARE = 1.1
+"""A reference may ask for so much more than its limits say: rounding, and ramps between two of them."""
+
+
+def flaw(reference: Reference, fence: Geofence | None, speed: float, acceleration: float) -> str:
+    """Why a reference must not be sent, or nothing.
+
+    Parameters
+    ----------
+    reference : where the vehicle should be, in the mission frame (NED).
+    fence : where it may be; None: everywhere.
+    speed, acceleration : the most that the mission allows [m/s], [m/s^2].
+    """
+    numbers = (*reference.position_m, *reference.velocity_m, *reference.acceleration_m, reference.yaw)
+    if not all(abs(number) <= FARTHEST for number in numbers):  # false for NaN, too
+        return "not a place to fly to"
+    if fence is not None and fence.inside(reference.position_m) < 0.0:
+        return "outside the fence"
+    if math.hypot(*reference.velocity_m) > SPARE * speed:
+        return f"faster than {speed:g} m/s"
+    if math.hypot(*reference.acceleration_m) > SPARE * acceleration:
+        return f"an acceleration above {acceleration:g} m/s^2"
+    return ""
 
 
 def setpoint_message(reference: Reference, origin_n: FloatArray, time_boot_ms: int, target_system: int) -> Any | None:

@@ -5,7 +5,8 @@ import struct
 import numpy as np
 import pytest
 
-from companion.offboard import FULL, setpoint_message, type_mask
+from companion.geofence import Geofence
+from companion.offboard import FULL, flaw, setpoint_message, type_mask
 from companion.seam import Reference
 from wire.dialect import mavlink
 
@@ -72,3 +73,25 @@ def x25(data: bytes) -> int:
         for _ in range(8):
             crc = crc >> 1 ^ (0x8408 if crc & 1 else 0)
     return crc
+
+
+STILL = np.zeros(3)
+
+
+@pytest.mark.parametrize(
+    ("reference", "found"),
+    [
+        (Reference(np.array([1.0, 2.0, -3.0]), np.array([3.0, 0.0, 0.0]), STILL, 0.0), ""),
+        (Reference(np.array([np.nan, 2.0, -3.0]), STILL, STILL, 0.0), "not a place to fly to"),
+        (Reference(np.array([1.0, 2.0, -3.0]), np.array([0.0, np.inf, 0.0]), STILL, 0.0), "not a place to fly to"),
+        (Reference(np.array([1.0, 2.0, -3.0]), STILL, STILL, np.nan), "not a place to fly to"),
+        (Reference(np.array([1.0, 2.0, -6.0]), STILL, STILL, 0.0), "outside the fence"),
+        (Reference(np.array([1.0, 2.0, -3.0]), np.array([3.0, 2.0, 0.0]), STILL, 0.0), "faster than 3 m/s"),
+        (
+            Reference(np.array([1.0, 2.0, -3.0]), STILL, np.array([0.0, 0.0, 7.0]), 0.0),
+            "an acceleration above 6 m/s^2",
+        ),
+    ],
+)
+def test_a_reference_that_must_not_be_sent_is_found_and_named(reference, found):
+    assert flaw(reference, Geofence(ceiling=5.0), speed=3.0, acceleration=6.0) == found

@@ -1,0 +1,252 @@
+"""The safety table, row by row: what a puppet vehicle of either flavour says, and what the companion makes of it."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from companion.autopilots import AUTOPILOTS
+from companion.core import Companion, CompanionConfig
+from companion.missionfile import parse_mission
+from companion.phases import TRANSITIONS, Event, Phase
+from companion.safety import SAFETY, Action
+from companion.seam import Order
+from companion.vehiclelink import VEHICLE_LINK
+from wire.datagram import Datagram
+from wire.dialect import mavlink
+
+MISSION = parse_mission(
+    b"""\
+name: long hold
+vehicle: {start: {north: 5, east: 5}}
+world: {bounds: {north: [0, 10], east: [0, 10], altitude: [0, 4]}}
+steps: [{takeoff: {altitude: 2}}, {hold: {seconds: 1000}}, land]
+""",
+    "hold.yaml",
+)
+NUMBER = {"px4": 12, "ardupilot": 3}
+OURS = {"px4": 6 << 16, "ardupilot": 4}
+HOLD = {"px4": 4 << 16 | 3 << 24, "ardupilot": 5}
+LAND = {"px4": 4 << 16 | 6 << 24, "ardupilot": 9}
+GROUND, AIR = mavlink.MAV_LANDED_STATE_ON_GROUND, mavlink.MAV_LANDED_STATE_IN_AIR
+
+
+class Puppet:
+    """A vehicle that says what it is told to, to a companion that is in the phase it is put into."""
+
+    def __init__(self, flavour, phase):
+        self.flavour, self.mav = flavour, mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+        self.mode = self.intended = LAND[flavour] if phase is Phase.LANDING else OURS[flavour]
+        self.armed, self.status, self.battery = True, 4, 90
+        self.landed = GROUND if phase is Phase.TAKING_OFF else AIR
+        self.flags, self.ratio, self.at, self.boot_ms = 831, 0.1, None, 100_000
+        self.says_position = self.says_anything = True
+        self.now_us = 1_000_000
+        self.companion = Companion(MISSION, CompanionConfig())
+        self.companion.autopilot = AUTOPILOTS[NUMBER[flavour]]
+        self.notes = []
+        self.companion.itinerary.begin(0) if phase is Phase.TAKING_OFF else self.companion.itinerary.airborne(0)
+        if phase is Phase.REJOINING:  # the mission waits elsewhere, and the plan of a way there is never answered
+            self.at = self.companion.itinerary.reference(0).position_m + np.array([1.5, 0.0, 0.0])
+        self.companion.step(self.now_us, self.said())
+        self.companion.step(self.now_us, self.said())
+        self.companion.origin_n = np.zeros(3)
+        self.companion.phase, self.companion._entered_us, self.companion._command = phase, self.now_us, None
+        if phase is Phase.REJOINING:
+            self.companion.rejoin.begin(self.companion.pose(0))
+            self.companion.itinerary.stopped = True
+            self.companion._reference = None
+        for _ in range(4):
+            self.tick()
+        assert self.companion.phase is phase
+
+    def said(self):
+        if not self.says_anything:
+            return []
+        m, base = mavlink, 0x80 if self.armed else 0
+        out = [
+            m.MAVLink_heartbeat_message(2, NUMBER[self.flavour], 1 | base, self.mode, self.status, 3),
+            m.MAVLink_extended_sys_state_message(0, self.landed),
+            m.MAVLink_sys_status_message(0, 0, 2**28, 0, 0, 0, self.battery, 0, 0, 0, 0, 0, 0),
+        ]
+        if self.flavour == "px4":
+            out.append(m.MAVLink_estimator_status_message(0, self.flags, self.ratio, 0, 0, 0, 0, 0, 0, 0))
+            out.append(m.MAVLink_current_mode_message(0, self.mode, self.intended))
+        else:
+            out.append(m.MAVLink_ekf_status_report_message(self.flags, self.ratio, 0, 0, 0, 0))
+        if self.says_position:
+            here = self.companion.itinerary.reference(self.now_us).position_m if self.at is None else self.at
+            out.append(m.MAVLink_local_position_ned_message(self.boot_ms, *here, 0, 0, 0))
+            out.append(m.MAVLink_attitude_message(self.boot_ms, 0, 0, 0, 0, 0, 0))
+        return [Datagram(VEHICLE_LINK, bytes(x.pack(self.mav)), ("vehicle", 1)) for x in out]
+
+    def tick(self, period_us=20_000):
+        self.now_us += period_us
+        self.boot_ms += period_us // 1000
+        outputs = self.companion.step(self.now_us, self.said())
+        self.notes += [o.text for o in outputs if hasattr(o, "text")]
+
+    def run(self, seconds):
+        for _ in range(round(seconds * 50)):
+            self.tick()
+        return self.companion
+
+
+def says(**changes):
+    def apply(puppet):
+        for name, value in changes.items():
+            setattr(puppet, name, value[puppet.flavour] if isinstance(value, dict) else value)
+
+    return apply
+
+
+def strays(metres):
+    return lambda p: setattr(p, "at", p.companion.itinerary.reference(p.now_us).position_m + np.array([metres, 0, 0]))
+
+
+def boots_again(puppet):
+    puppet.boot_ms = 500
+
+
+def no_way(puppet):
+    puppet.companion.replanning.trouble = "walled in"
+
+
+def stalls(puppet):
+    puppet.tick(700_000)
+
+
+FLYING, LANDING = Phase.FLYING, Phase.LANDING
+ROWS = [
+    # rule, phase it happens in, what happens, when nothing has followed yet [s], when it has, phase then, reason
+    ("rebooted", FLYING, boots_again, 0.0, 0.2, Phase.FAILED, "the vehicle booted again in the air"),
+    ("disarmed", FLYING, says(armed=False), 0.0, 0.5, Phase.FAILED, "the vehicle disarmed in the air"),
+    ("landed", LANDING, says(armed=False, landed=GROUND), 0.0, 0.1, Phase.DONE, ""),
+    ("gone", LANDING, says(says_anything=False), 55.0, 61.0, Phase.FAILED, "nothing heard from the vehicle for 60 s"),
+    ("mode taken", FLYING, says(mode=HOLD, intended=HOLD), 0.2, 0.5, Phase.HANDED_OVER, "the vehicle is in"),
+    ("landing stopped", LANDING, says(mode=HOLD, intended=HOLD), 0.2, 0.5, Phase.HANDED_OVER, "the vehicle stopped"),
+    ("silent", FLYING, says(says_anything=False), 2.9, 3.2, Phase.LINK_LOST, ""),
+    ("no position", FLYING, says(says_position=False), 3.2, 3.8, Phase.LANDING, "no position from the vehicle for 3 s"),
+    ("no estimate", FLYING, says(flags=1024), 0.9, 1.2, Phase.LANDING, "estimator not converged: landing"),
+    ("astray", Phase.REJOINING, None, 0.0, 0.0, Phase.LANDING, ""),  # below, by itself
+    ("stranded", FLYING, no_way, 29.0, 30.2, Phase.LANDING, r"no safe way for 30 s \(walled in\)"),
+    ("takeoff late", Phase.TAKING_OFF, says(landed=GROUND), 28.0, 31.0, Phase.LANDING, "not in the air 30 s"),
+    (
+        "rejoining late",
+        Phase.REJOINING,
+        says(),
+        28.0,
+        31.0,
+        Phase.LANDING,
+        "no way back to the mission in 30 s",
+    ),
+    ("battery critical", FLYING, says(battery=6), 1.9, 2.2, Phase.LANDING, "battery at 6%: landing"),
+    ("battery low", FLYING, says(battery=14), 1.9, 2.2, Phase.LANDING, "battery at 14%: returning"),
+    ("stalled", FLYING, stalls, None, 0.1, Phase.REJOINING, ""),
+    ("adrift", FLYING, strays(1.5), 0.2, 0.5, Phase.REJOINING, ""),
+]
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+@pytest.mark.parametrize(
+    ("rule", "phase", "happens", "not_before", "by", "then", "reason"), [r for r in ROWS if r[2]], ids=lambda v: str(v)
+)
+def test_a_row_of_the_table_leads_where_it_says_and_not_before(
+    flavour, rule, phase, happens, not_before, by, then, reason
+):
+    puppet = Puppet(flavour, phase)
+    happens(puppet)
+    if not_before is not None:
+        assert puppet.run(not_before).phase is phase, puppet.notes
+    companion = puppet.run(by - (not_before or 0.0))
+    gone_through = [note.split(" -> ")[1].split(" (")[0] for note in puppet.notes if " -> " in note]
+    assert companion.phase is then or then.value in gone_through, puppet.notes
+    assert re.match(reason, companion.failure)
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+@pytest.mark.parametrize(
+    ("happens", "after_s", "why"),
+    [
+        (says(says_position=False), 0.6, "no position for 0.5 s"),
+        (says(ratio=1.5), 2.1, "the estimator rejects velocity"),
+    ],
+    ids=["position late", "estimate doubted"],
+)
+def test_a_row_that_holds_stands_on_the_path_and_goes_on_when_it_is_over(flavour, happens, after_s, why):
+    puppet = Puppet(flavour, FLYING)
+    happens(puppet)
+    companion = puppet.run(after_s)
+    assert companion.phase is FLYING
+    assert companion.itinerary.stopped
+    assert f"holding: {why}" in puppet.notes
+    puppet.says_position, puppet.ratio = True, 0.1
+    puppet.run(0.2)
+    assert companion.phase is FLYING
+    assert not companion.itinerary.stopped
+
+
+def test_a_px4_that_misses_our_setpoints_is_waited_for_where_it_holds():
+    puppet = Puppet("px4", FLYING)
+    puppet.mode = HOLD["px4"]  # OFFBOARD is still intended
+    assert puppet.run(0.6).phase is Phase.REJOINING
+    puppet.mode = OURS["px4"]
+    assert puppet.run(0.5).phase is FLYING  # it stands where the mission waits
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_that_does_not_follow_on_the_way_back_is_landed(flavour):
+    puppet = Puppet(flavour, Phase.REJOINING)
+    puppet.run(0.1)
+    puppet.at = puppet.at + np.array([-3.0, 0.0, 0.0])
+    assert puppet.run(0.8).phase is Phase.REJOINING
+    assert puppet.run(0.5).phase is Phase.LANDING
+    assert re.match(r"the vehicle is 3\.0 m from its reference", puppet.companion.failure)
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_low_battery_sends_it_home_and_a_critical_one_down(flavour):
+    home = {"px4": (4, 5), "ardupilot": (6, 0)}
+    down = {"px4": (4, 6), "ardupilot": (9, 0)}
+    for battery, mode in ((14, home), (5, down)):
+        puppet = Puppet(flavour, FLYING)
+        puppet.battery = battery
+        puppet.run(2.5)
+        assert puppet.companion._command.parameters[1:] in (mode[flavour], mode[flavour][:1])
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_that_a_pilot_had_is_taken_back_only_when_the_operator_says_so(flavour):
+    puppet = Puppet(flavour, FLYING)
+    puppet.mode = puppet.intended = HOLD[flavour]
+    assert puppet.run(1.0).phase is Phase.HANDED_OVER
+    puppet.mode = puppet.intended = OURS[flavour]
+    assert puppet.run(1.0).phase is Phase.HANDED_OVER  # not by itself
+    assert not puppet.companion.obey(puppet.now_us, Order("resume"))
+    puppet.run(0.1)
+    assert puppet.companion.phase in (Phase.REJOINING, FLYING)
+    assert puppet.run(1.0).phase is FLYING
+    assert not puppet.companion.failure
+
+
+def test_rules_stand_in_the_order_of_their_urgency_and_name_events_that_the_phases_know():
+    order = list(Action)
+    urgency = [order.index(rule.action) for rule in SAFETY]
+    assert urgency == sorted(urgency)
+    for rule in SAFETY:
+        assert (rule.event is None) is (rule.action is Action.HOLD)
+        for phase in rule.phases:
+            assert rule.event is None or (phase, rule.event) in TRANSITIONS, rule.name
+
+
+def test_every_row_is_in_the_page_and_walked_here():
+    page = Path("docs/safety.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([a-z ]+) \|", page, flags=re.MULTILINE)
+    assert [name for name in rows if name != "rule"] == [rule.name for rule in SAFETY]
+    walked = {row[0] for row in ROWS} | {"stream lost", "position late", "estimate doubted", "at the fence"}
+    assert walked == {rule.name for rule in SAFETY}
+
+
+def test_a_silent_vehicle_is_no_event_of_the_ground():
+    assert (Phase.HANDED_OVER, Event.VEHICLE_SILENT) not in TRANSITIONS
