@@ -32,6 +32,7 @@ from companion.ground.router import Router
 from companion.ground.station import GroundStation
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
 from companion.itinerary import Itinerary
+from companion.lookout import Lookout
 from companion.mission import Mission
 from companion.offboard import flaw, setpoint_message
 from companion.phases import AIRBORNE, OVER, STREAMING, Event, Phase, after
@@ -113,6 +114,7 @@ class Companion:
         self.seeing: Seeing = NothingSeen()
         self.replanning: Replanning = NothingReplanned()
         self.ground: Ground = NobodyAsks()
+        self.lookout: Lookout | None = None
         if config.ground_links:
             self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
         self.fence = mission.geofence()
@@ -120,6 +122,7 @@ class Companion:
         if mission.senses():
             sight = Sight(mission)
             self.seeing, self.replanning = sight, Replanned(mission, self.itinerary, sight, config.seed)
+            self.lookout = Lookout(mission, self.itinerary, sight)
         self._started_us: int | None = None
         self._last_us: int | None = None  # of the tick before
         self._flight_us = 0
@@ -178,6 +181,7 @@ class Companion:
         if self.phase is Phase.FLYING:
             out.extend(self.replanning.step(flight_us, self.pose(flight_us)))
             out.extend(self.replanning.take_said())
+            out.extend([] if self.lookout is None else self.lookout.step(flight_us))
         self._stream(now_us, out)
         self._last_us = now_us
         return out
@@ -369,7 +373,7 @@ class Companion:
             rejected=tuple(t.rejected),
             error_m=error,
             battery=t.battery,
-            no_way=self.replanning.trouble,
+            no_way=self.replanning.trouble or ("" if self.lookout is None else self.lookout.trouble),
         )
 
     @property

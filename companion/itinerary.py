@@ -9,7 +9,7 @@ mission waits below it; `resume` first plans the way back to where the mission w
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -40,6 +40,7 @@ class Itinerary:
     seed : for the planner; the leg of step k is planned with seed + k.
     yaw : where the nose points [rad], until a step turns it.
     stopped : keep it at rest on its path, whatever is ordered: safety's word, not a person's.
+    blocked : keep it at rest likewise: something is seen on its path.
     cut_short : by which order the mission did not go to its end; empty otherwise.
     """
 
@@ -55,6 +56,7 @@ class Itinerary:
     _purpose: Order | None = None  # of the errand, until it is there
     _landing: bool = False  # an order ends the flight here
     stopped: bool = False
+    blocked: bool = False
     cut_short: str = ""
     _requests: int = 0
     _said: list[PlanWanted | Note] = field(default_factory=list)
@@ -209,6 +211,27 @@ class Itinerary:
         walk.leg.planned, walk.open_ended = flown.trajectory, not flown.to_goal
         walk.entered_us = round(walk.pace.at(now_us).us) - (now_us - flown.start_us)
 
+    def ahead(self, now_us: int, seconds: float, every_s: float) -> FloatArray | None:
+        """Where it leads (m, 3) from now on at full pace, where nobody plans it again: on a circle, or past points.
+
+        None elsewhere. The first point is where it is now; after the leg's end it stands.
+        """
+        walk = self._top
+        replanned = walk.leg.planned is not None and not (walk.leg.wanted is not None and walk.leg.wanted.via_m)
+        begun = walk.leg.planned.duration if replanned and walk.leg.planned is not None else 0.0
+        here = walk.seconds(now_us)
+        if walk.entered_us is None or not walk.leg.paths or here < begun or walk.open_ended:
+            return None
+        return np.array([walk.motion(here + every_s * k).position for k in range(round(seconds / every_s) + 1)])
+
+    def leave_out_via(self) -> bool:
+        """Let the leg under way lead to its goal alone, however it gets there; False where it has no plan."""
+        leg = self._top.leg
+        if leg.wanted is None or leg.planned is None:
+            return False
+        leg.wanted = replace(leg.wanted, via_m=())
+        return True
+
     # ---- orders -------------------------------------------------------------------------------------------------
 
     def order(self, now_us: int, order: Order) -> str:
@@ -286,7 +309,7 @@ class Itinerary:
 
     def _follow_orders(self, now_us: int) -> None:
         """Bring the pace to what is ordered, and begin what waits for rest."""
-        walk, paused = self._top, self._paused or self.stopped
+        walk, paused = self._top, self._paused or self.stopped or self.blocked
         if walk.entered_us is None:
             return
         if self._arrived(now_us) and self._purpose is not None and not paused:

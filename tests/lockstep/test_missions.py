@@ -80,7 +80,7 @@ def orders(*given):
 
 
 def after(seconds):
-    """So many seconds after the first goto began."""
+    """So many seconds after the order before it; the first: after the goto began."""
     began = []
 
     def condition(companion, now_us):
@@ -387,3 +387,56 @@ def test_without_a_mission_the_companion_idles_takes_an_upload_and_flies_it_when
     assert verdict.track.position_m[:, 0].max() == pytest.approx(north, abs=0.5)
     assert companion.ground.missions.items == list(mission.plan_items)
     assert rerun(Recording.open(recording)).comparison.first is None
+
+
+SEEN = """\
+name: seen
+vehicle: {start: {north: 3, east: 3}}
+world:
+  bounds: {north: [0, 30], east: [0, 20], altitude: [0, 4]}
+  obstacles:
+    - box: {north: [9, 10], east: [4, 9], altitude: [0, 4]}
+      hidden: true
+    - box: {north: [23, 24], east: [12, 14], altitude: [0, 4]}
+      hidden: true
+sensing: {use: true}
+limits: {speed: 2}
+steps:
+  - takeoff: {altitude: 1.5}
+  - via: [{north: 9.5, east: 6.5, altitude: 1.5}]
+  - goto: {north: 20, east: 3, altitude: 1.5}
+  - orbit: {north: 23, east: 10, altitude: 1.5, radius: 3}
+  - land
+"""
+
+
+@pytest.mark.slow
+def test_what_is_seen_on_a_leg_with_points_or_on_a_circle_is_never_flown_into(fly):
+    flight = fly(SEEN)
+    assert any("the points on the way are left out" in note for note in flight.notes)
+    assert any("something is in the way: stopping before it" in note for note in flight.notes)
+    assert flight.companion.phase is Phase.DONE
+    assert "something stays in the way" in flight.verdict.failure
+    assert flight.verdict.min_clearance_m > 0.05
+    smooth(flight)
+
+
+@pytest.mark.slow
+def test_orders_work_while_the_flight_is_replanned_from_what_is_seen(fly):
+    text = SEEN.replace("  - via: [{north: 9.5, east: 6.5, altitude: 1.5}]\n", "").replace(
+        "  - orbit: {north: 23, east: 10, altitude: 1.5, radius: 3}\n", ""
+    )
+    flight = fly(
+        text.replace("[4, 9]", "[0, 6]"),
+        operator=orders(
+            (after(2.0), Order("hold")),
+            (after(4.0), Order("resume")),
+            (after(2.0), Order("goto", (18.0, 15.0, 1.5))),
+            (after(16.0), Order("resume")),
+        ),
+    )
+    assert flight.verdict.ok, flight.verdict.failure
+    _, p, _, _, _ = path(flight)
+    assert np.linalg.norm(p - (18, 15, -1.5), axis=1).min() < 1e-3
+    np.testing.assert_allclose(p[-1], (20, 3, -1.5), atol=0.05)
+    assert flight.verdict.min_clearance_m > 0.05
