@@ -34,16 +34,22 @@ DRIFT_M, DRIFT_US = 0.5, 300_000
 RESTING_US = 500_000
 """Between two questions of a vehicle that rests where nothing moves."""
 LATE = 3
-CLIMB_S, CLIMB_GROWTH = 3.0, 0.1
-"""Beside the climb itself its column is to be clear for so long [s]; a mover's uncertainty there [m/s]."""
+COLUMN_S, COLUMN_GROWTH = 3.0, 0.1
+"""Beside climb or descent itself its column is to be clear for so long [s]; a mover's uncertainty there [m/s]."""
+DESCENT = 0.5
+"""A slow landing [m/s]."""
 LADDER = (1.0, 0.85, 0.7)
 """Parts of the radius with which a plan from scratch is tried in turn, where noise has put cells within the radius."""
 TIGHTEST = 0.03
 """Hull to what is seen, at least [m]; the guard keeps the same."""
 AWAY_SPARE = 0.1
 """What a step out of the radius may come nearer than where it begins, by the newest map [m]."""
+STANDING_US = 1_000_000
+"""For so long after its end a way is to be clear as well: the vehicle stands there."""
 AGAIN_US = 500_000
 """Between two plans from scratch."""
+LONGEST_STAY_US = 60_000_000
+"""At the goal, until nothing is about to cross the column under it; then it goes on all the same."""
 PATIENCE_US = 1_000_000
 """At a stop for so long, and it is told that there is no way on."""
 
@@ -91,6 +97,8 @@ class Replanning:
         self._rung = 0
         self._stopped_us = 0
         self._on_track_us = 0
+        self._stays_us = 0  # when the goal was reached first
+        self._at_goal = False  # the stop is one at the goal, until what crosses it is gone
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         """An answer; what was not asked for, or is too late, is dropped."""
@@ -105,16 +113,29 @@ class Replanning:
         """What is about to cross the climb, before anything has left the ground; or nothing."""
         climb = self._mission.steps[0].takeoff
         top = 0.0 if climb is None else climb.altitude
-        ahead_s = CLIMB_S + top / self._mission.limits.climb
         north, east, _ = self._mission.start_m()
+        crossed_s = self._crossed(flight_us, north, east, -top, top / self._mission.limits.climb)
+        return "" if crossed_s == math.inf else f"something crosses the climb in {crossed_s:.1f} s"
+
+    def _crossed(self, flight_us: int, north: float, east: float, top: float, takes_s: float) -> float:
+        """When a mover comes too near to the column from the height `top` (down) to the ground [s]; inf: not soon.
+
+        The world's bounds are walls: what gets to one is taken to come back from it.
+        """
+        low, high = self._mission.planner_world().walls
+        ahead = np.arange(0.0, COLUMN_S + takes_s, 0.1)
+        soonest = math.inf
         for mover in self._sight.tracks.movers():
-            for t in np.arange(0.0, ahead_s, 0.1).tolist():
-                age = flight_us / 1e6 + t - mover.stamp
-                x, y, z = (c + v * age for c, v in zip(mover.centre, mover.velocity, strict=True))
-                gap = math.dist((x, y, z), (north, east, min(max(z, -top), 0.0)))
-                if gap < self._mission.seen_radius() + mover.radius + CLIMB_GROWTH * t:
-                    return f"something crosses the climb in {t:.1f} s"
-        return ""
+            age = flight_us / 1e6 - mover.stamp + ahead
+            straight = np.array(mover.centre) + age[:, None] * np.array(mover.velocity)
+            for way in (straight, _folded(straight, low + mover.radius, high - mover.radius)):
+                foot = np.column_stack(
+                    (np.full((len(way), 1), north), np.full(len(way), east), way[:, 2].clip(top, 0.0))
+                )
+                near = self._mission.seen_radius() + mover.radius + COLUMN_GROWTH * ahead
+                met = np.flatnonzero(((way - foot) ** 2).sum(axis=1) < near**2)
+                soonest = min(soonest, float(ahead[met[0]]) if len(met) else math.inf)
+        return soonest
 
     def take_said(self) -> list[Note]:
         """What people should know; each is told once."""
@@ -137,7 +158,7 @@ class Replanning:
         if flight_us < self._due_us:
             return []
         boundary = self._due_us
-        flown = self._decide(boundary, flown)
+        flown = self._stay(boundary, self._decide(boundary, flown))
         self._itinerary.follow(flight_us, flown)
         resting = not flown.to_goal and boundary >= end_us(flown) and not len(self._sight.tracks)
         period_us = max(RESTING_US, self._period_us) if resting else self._period_us
@@ -202,7 +223,24 @@ class Replanning:
             else:
                 why = "the answer does not join what is flown"
         self._fresh = True
-        return self._stop(boundary, flown, backup, why)
+        least = answer.flown if answer is not None and not answer.certified else None
+        return self._stop(boundary, flown, backup, least, why)
+
+    def _stay(self, boundary: int, flown: Flown) -> Flown:
+        """What is flown; its end only a stop, as long as something is about to cross the column under the goal.
+
+        So the leg goes on, and with it the planning that gets out of the way and comes back.
+        """
+        over = flown.to_goal and end_us(flown) <= boundary + 2 * self._period_us
+        if not over or not len(self._sight.tracks) or boundary > self._stays_us + LONGEST_STAY_US:
+            self._stays_us = self._stays_us if over else boundary
+            return flown
+        north, east, top = flown.trajectory.position(flown.trajectory.duration).tolist()
+        crossed_s = self._crossed(boundary, north, east, top, -top / DESCENT)
+        if crossed_s == math.inf:
+            return flown
+        self._fresh, self._at_goal = True, True
+        return Flown(Trajectory(flown.trajectory.control_points, flown.trajectory.knots), flown.start_us, to_goal=False)
 
     def _taken(self, flown: Flown, chosen: Flown, answer: ReplanReady) -> Flown:
         self._backup = answer.backup
@@ -213,15 +251,14 @@ class Replanning:
                 self._tell(Level.WARNING, f"no way on is proved: {answer.reason}")
         return chosen
 
-    def _stop(self, boundary: int, flown: Flown, backup: Flown | None, why: str) -> Flown:
-        """The stop kept ready, else the quickest one; what is flown already, where that is as good."""
+    def _stop(self, boundary: int, flown: Flown, backup: Flown | None, least: Flown | None, why: str) -> Flown:
+        """What is clear for longest: what is flown, the stop kept ready, the quickest one, the planner's least bad."""
         if not flown.to_goal and self._clear(flown, boundary) == math.inf:
             return flown
         if flown.to_goal and self._cleared_for_now(flown, boundary):
             return flown
-        found = [
-            stop for stop in (backup, self._dash(boundary, flown)) if stop is not None and self._joins(flown, stop)
-        ]
+        ways = (backup, self._dash(boundary, flown), least)
+        found = [stop for stop in ways if stop is not None and self._joins(flown, stop)]
         if not found:
             return flown
         stop = max(found, key=lambda stop: self._clear(stop, boundary))
@@ -261,7 +298,7 @@ class Replanning:
         return self._clear(chosen, boundary, boundary + round(ahead_s * 1e6)) == math.inf
 
     def _clear(self, flown: Flown, from_us: int, until_us: int | None = None, radius: float | None = None) -> float:
-        until = end_us(flown) if until_us is None else until_us
+        until = end_us(flown) + STANDING_US if until_us is None else until_us
         keep = self._hull if radius is None else radius
         return clear_for(flown, from_us, until, self._sight.map, self._sight.tracks.movers(), keep)
 
@@ -306,9 +343,10 @@ class Replanning:
 
     def _from_scratch(self, flight_us: int, flown: Flown) -> list[ReplanWanted]:
         """At a stop, or on the way to one: ask for a plan from where it ends."""
-        if flown.to_goal:
+        if flown.to_goal or self._at_goal:
             self._stopped_us, self.trouble = 0, ""
             self._cold = self._cold_answer = None
+            self._at_goal = False
             return []
         self._stopped_us = self._stopped_us or flight_us
         if flight_us - self._stopped_us > PATIENCE_US and not self.trouble:
@@ -383,4 +421,10 @@ class Replanning:
             self._said.append(Note(level, text))
 
 
-__all__ = ["Replanning"]
+def _folded(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Places (m, 3) on a straight way, reflected by the walls of a block; as they are where the block has no room."""
+    room = high - low
+    with np.errstate(invalid="ignore", divide="ignore"):
+        u = np.abs((points - low) % (2.0 * room))
+    folded: FloatArray = np.where(room > 0.0, low + np.minimum(u, 2.0 * room - u), points)
+    return folded
