@@ -14,6 +14,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from companion.errors import ConfigError
+from companion.fleet.member import FLEET_LINK
 from wire.endpoint import Endpoint
 from wire.errors import EndpointError
 
@@ -97,6 +98,13 @@ class ServiceConfig(BaseModel):
     def endpoints(self) -> dict[str, Endpoint]:
         """The ground stations' links by name."""
         return {f"out{k}": Endpoint.parse(url) for k, url in enumerate(self.out)}
+
+    def fleet_endpoints(self) -> dict[str, Endpoint]:
+        """The links to other companions by name: where they are heard, and one that calls each."""
+        if self.fleet is None:
+            return {}
+        calls = {f"{FLEET_LINK}{k}": Endpoint.parse(url) for k, url in enumerate(self.fleet.others)}
+        return {FLEET_LINK: Endpoint.parse(self.fleet.listen)} | calls
 
     def page(self) -> tuple[str, int] | None:
         """Where the page is served."""

@@ -27,6 +27,7 @@ from companion.autopilots import AUTOPILOTS
 from companion.autopilots.base import Autopilot, stream_requests
 from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome, ParameterWrite, is_for
+from companion.fleet.member import FLEET_LINK, Member
 from companion.geodesy import Geodetic, to_local
 from companion.ground.router import Router
 from companion.ground.station import GroundStation
@@ -83,6 +84,8 @@ class CompanionConfig:
     wait_vehicle_s: float = 60.0
     wait_ready_s: float = 120.0
     wait_plan_s: float = 60.0
+    fleet_number: int = 0  # ours among several vehicles; 0: there are no others
+    fleet_calls: int = 0  # links that call the others
 
 
 class Companion:
@@ -119,8 +122,11 @@ class Companion:
             self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
         self.fence = mission.geofence()
         self.router = Router(config.ground_links)
-        if mission.senses():
+        self.fleet: Member | None = None
+        if mission.senses() or config.fleet_number:
             sight = Sight(mission)
+            if config.fleet_number:
+                self.fleet = Member(config.fleet_number, mission, sight.tracks, config.fleet_calls)
             self.seeing, self.replanning = sight, Replanned(mission, self.itinerary, sight, config.seed)
             self.lookout = Lookout(mission, self.itinerary, sight)
         self._started_us: int | None = None
@@ -178,6 +184,8 @@ class Companion:
             if event is not None:
                 self._move(now_us, event, out)
             self._work(now_us, out)
+        if self.fleet is not None:
+            out.extend(self._told_to_others(self.fleet, now_us, flight_us))
         if self.phase is Phase.FLYING:
             out.extend(self.replanning.step(flight_us, self.pose(flight_us)))
             out.extend(self.replanning.take_said())
@@ -185,6 +193,12 @@ class Companion:
         self._stream(now_us, out)
         self._last_us = now_us
         return out
+
+    def _told_to_others(self, fleet: Member, now_us: int, flight_us: int) -> list[Datagram | Note]:
+        flown = self.itinerary.flown(flight_us) if self.phase is Phase.FLYING else None
+        aim = None if flown is None else self.itinerary.aim()
+        yields = aim is not None and not aim.via_m
+        return fleet.step(now_us, self.pose(flight_us), flown, airborne=self.phase in AIRBORNE, yields=yields)
 
     @property
     def over(self) -> bool:
@@ -228,6 +242,8 @@ class Companion:
                 out.extend(self.ground.take(now_us, item, lambda order: self.obey(now_us, order)))
                 routed = self.router.route(now_us, item, self.link.system_id, self.link.peer)
                 out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
+            case Datagram(link=link) if self.fleet is not None and link.startswith(FLEET_LINK):
+                self.fleet.take(now_us, item)
             case ReplanReady():
                 self.replanning.take(item, self._flight_us)
             case PlanReady():

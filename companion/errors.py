@@ -28,6 +28,9 @@ class MissionError(CompanionError):
         self.problems = problems
         super().__init__("\n".join(f"{file}: {problem}" for problem in problems))
 
+    def __reduce__(self) -> tuple[type, tuple[str, list[str]]]:  # so that it comes whole out of another process
+        return type(self), (self.file, self.problems)
+
 
 class ConfigError(CompanionError):
     """The configuration of the service is unreadable or invalid; fields as in `MissionError`."""
@@ -36,6 +39,9 @@ class ConfigError(CompanionError):
         self.file = file
         self.problems = problems
         super().__init__("\n".join(f"{file}: {problem}" for problem in problems))
+
+    def __reduce__(self) -> tuple[type, tuple[str, list[str]]]:  # so that it comes whole out of another process
+        return type(self), (self.file, self.problems)
 
 
 class LinkError(CompanionError):

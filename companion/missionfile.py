@@ -58,7 +58,7 @@ def parse_mission(data: bytes, file: str) -> Mission:
         return _of_plan(data, file)
     try:
         text = data.decode("utf-8")
-        _refuse_traps(text, file)
+        refuse_traps(text, file)
         loader = yaml.SafeLoader(text)
         node = loader.get_single_node()
         document = None if node is None else loader.construct_document(node)
@@ -110,7 +110,7 @@ def _origin(document: dict[str, Any]) -> Geodetic | None:
         return None
 
 
-def _refuse_traps(text: str, file: str) -> None:
+def refuse_traps(text: str, file: str) -> None:
     """What is YAML and yet no mission: aliases, which a few bytes can make endless, and bottomless nesting."""
     depth = 0
     for event in yaml.parse(text, Loader=yaml.SafeLoader):

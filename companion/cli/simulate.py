@@ -7,6 +7,7 @@ from pathlib import Path
 from rich.console import Console
 
 from companion.cli import show
+from companion.cli.many import simulate_many
 from companion.cli.operator import STOPPED, Operator
 from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
@@ -14,6 +15,7 @@ from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
+from companion.fleet.missions import has_vehicles, split
 from companion.missionfile import parse_mission, read_mission_file
 from companion.testing.taps import surroundings
 from companion.verdict import FlightMeter, judge
@@ -30,6 +32,8 @@ def simulate_mission(path: Path, seed: int, record: Path | None, autopilot: Auto
     """Fly `path` in lockstep; returns the exit code."""
     out = show.console()
     data = read_mission_file(path)
+    if has_vehicles(data):
+        return simulate_many(split(data, str(path)), seed, record, autopilot, as_json)
     mission = parse_mission(data, str(path))
     companion = Companion(mission, CompanionConfig(seed=seed))
     planning = InlinePlanning(mission.planner_world())

@@ -6,7 +6,8 @@ from typing import Protocol
 from companion.core import Companion
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
-from companion.seam import Input, Order, PlanWanted, ReplanWanted
+from companion.fleet.member import FLEET_LINK
+from companion.seam import Input, Order, Output, PlanWanted, ReplanWanted
 from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Address, Datagram
 
@@ -61,32 +62,94 @@ def fly_lockstep(
     -------
     The simulated time at the end [us].
     """
-    if companion.TICK_US % vehicle.TICK_US:
-        raise ValueError(f"vehicle tick {vehicle.TICK_US} us does not divide the companion's {companion.TICK_US} us")
-    now_us, index = 0, 0
-    to_vehicle: list[Datagram] = []
+    pair = Pair(companion, vehicle, vehicle_link, planning, taps, operator, wire)
+    now_us = 0
     while not companion.over and now_us < limit_s * 1e6 and not stop():
+        pair.tick(now_us, [])
+        now_us += companion.TICK_US
+    return now_us
+
+
+class Pair:
+    """A companion and its vehicle, joined; parameters as in `fly_lockstep`."""
+
+    def __init__(
+        self,
+        companion: Companion,
+        vehicle: VehicleCore,
+        vehicle_link: str,
+        planning: Planning,
+        taps: Sequence[Tap],
+        operator: Callable[[int], Order | None] = lambda now_us: None,
+        wire: Wire | None = None,
+    ) -> None:
+        if companion.TICK_US % vehicle.TICK_US:
+            raise ValueError(
+                f"vehicle tick {vehicle.TICK_US} us does not divide the companion's {companion.TICK_US} us"
+            )
+        self.companion, self.vehicle = companion, vehicle
+        self._vehicle_link, self._planning, self._taps = vehicle_link, planning, taps
+        self._operator, self._wire = operator, wire
+        self._to_vehicle: list[Datagram] = []
+        self._index = 0
+
+    def tick(self, now_us: int, others: Sequence[Datagram]) -> list[Output]:
+        """Go on by one tick of the companion from `now_us`; what it gives, and `others` is what it hears beside."""
+        companion, vehicle, wire = self.companion, self.vehicle, self._wire
         inputs: list[tuple[int, Input]] = []
         for _ in range(companion.TICK_US // vehicle.TICK_US):
             now_us += vehicle.TICK_US
             if wire is not None:
-                to_vehicle = wire.to_vehicle(now_us, to_vehicle)
-            sent, to_vehicle = vehicle.step(now_us, to_vehicle), []
+                self._to_vehicle = wire.to_vehicle(now_us, self._to_vehicle)
+            sent, self._to_vehicle = vehicle.step(now_us, self._to_vehicle), []
             if wire is not None:
                 sent = wire.to_companion(now_us, sent)
             inputs.extend((now_us, Datagram(VEHICLE_LINK, d.data, VEHICLE_ADDRESS)) for d in sent)
-        inputs.extend((now_us, ready) for ready in planning.ready())
-        asked = operator(now_us)
+        inputs.extend((now_us, datagram) for datagram in others)
+        inputs.extend((now_us, ready) for ready in self._planning.ready())
+        asked = self._operator(now_us)
         if asked is not None:
             inputs.append((now_us, asked))
         outputs = companion.step(now_us, [item for _, item in inputs])
         for output in outputs:
             if isinstance(output, Datagram) and output.link == VEHICLE_LINK:
-                to_vehicle.append(Datagram(vehicle_link, output.data, COMPANION_ADDRESS))
+                self._to_vehicle.append(Datagram(self._vehicle_link, output.data, COMPANION_ADDRESS))
             elif isinstance(output, PlanWanted | ReplanWanted):
-                planning.submit(output)
-        tick = Tick(index, now_us, inputs, outputs, now_us)
-        for tap in taps:
+                self._planning.submit(output)
+        tick = Tick(self._index, now_us, inputs, outputs, now_us)
+        for tap in self._taps:
             tap(tick)
-        index += 1
+        self._index += 1
+        return outputs
+
+
+def fly_lockstep_many(
+    pairs: Sequence[Pair],
+    *,
+    limit_s: float,
+    look: Callable[[int], None] = lambda now_us: None,
+    stop: Callable[[], bool] = lambda: False,
+) -> int:
+    """Fly several at once; what one says on the fleet's link all others hear a tick later.
+
+    Who is done stands where it is. `look` is called after every tick.
+
+    Returns
+    -------
+    The simulated time at the end [us].
+    """
+    now_us = 0
+    heard: list[list[Datagram]] = [[] for _ in pairs]
+    while not all(pair.companion.over for pair in pairs) and now_us < limit_s * 1e6 and not stop():
+        told: list[list[Datagram]] = [[] for _ in pairs]
+        for i, pair in enumerate(pairs):
+            if pair.companion.over:
+                continue
+            for output in pair.tick(now_us, heard[i]):
+                if isinstance(output, Datagram) and output.link == FLEET_LINK:
+                    for k, others in enumerate(told):
+                        others.extend([Datagram(FLEET_LINK, output.data, (f"vehicle {i}", 0))] if k != i else [])
+        heard = told
+        now_us += pairs[0].companion.TICK_US
+        look(now_us)
     return now_us

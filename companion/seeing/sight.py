@@ -14,7 +14,7 @@ import numpy as np
 from companion.fields import boot_ms
 from companion.geodesy import Geodetic, to_local
 from companion.hooks import Pose
-from companion.mission import Mission
+from companion.mission import Mission, Sensing
 from companion.seam import FloatArray, Vector
 from companion.seeing.rollingmap import RollingMap
 from companion.seeing.sensing import POINT, RANGE, RING, Scan, rotation, scan_of, stamp_of
@@ -62,7 +62,7 @@ class Sight:
 
     Parameters
     ----------
-    mission : with `sensing`; its world is what is known beforehand.
+    mission : its world is what is known beforehand; without `sensing` there are no obstacles but its, only tracks.
 
     Attributes
     ----------
@@ -72,8 +72,7 @@ class Sight:
     """
 
     def __init__(self, mission: Mission) -> None:
-        sensing = mission.sensing
-        assert sensing is not None
+        sensing = Sensing(use=False) if mission.sensing is None else mission.sensing
         world = mission.planner_world()
         (_, _, top), (_, _, bottom) = world.bounds
         column = math.inf if sensing.column == "full" else float(sensing.column)
@@ -81,6 +80,7 @@ class Sight:
         self.tracks = Tracks()
         self.scans = 0
         self.jumped = False
+        self._looks = sensing.use
         self._world = world if world.obstacles else None
         self._mover_radius = sensing.mover_radius
         self._hull = mission.vehicle.radius
@@ -91,6 +91,8 @@ class Sight:
 
     def streams_hz(self) -> dict[int, float]:
         """What to ask the vehicle for; one that has no such sensor refuses, or stays silent."""
+        if not self._looks:
+            return {}
         return {RING: 10.0, _ADSB: MOVERS_HZ, _GLOBAL: 10.0}
 
     def begin(self) -> None:
@@ -101,7 +103,7 @@ class Sight:
     def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
         """One packet of the vehicle's system; `pose` is what telemetry says with it. Whether it told of something."""
         kind = packet.message_id
-        if not self._placed:
+        if not self._placed or not self._looks:
             return False
         if kind in (_POSITION, _ATTITUDE):
             if packet.component_id == mavlink.MAV_COMP_ID_AUTOPILOT1:

@@ -39,6 +39,10 @@ class Tracks:
         self._tracks[address] = Track(position_m, velocity, radius, now_us)
         self.version += 1
 
+    def drop(self, address: int) -> None:
+        """Somebody who need not be minded any more."""
+        self.version += self._tracks.pop(address, None) is not None
+
     def forget(self, now_us: int) -> None:
         """Drop who is silent."""
         gone = [a for a, track in self._tracks.items() if now_us - track.seen_us > SILENCE_S * 1e6]

@@ -35,7 +35,7 @@ from companion.service.http import Board, served
 from companion.service.idle import Idle
 from companion.service.jsonlog import LEVELS, Log, LogTap
 from companion.service.queue import Missions, Ready, make_room, recording_file
-from companion.service.snapshot import flight_state, idle_state, vehicle_state, verdict_state
+from companion.service.snapshot import fleet_state, flight_state, idle_state, vehicle_state, verdict_state
 from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
 from logs.errors import RecordingError
@@ -85,12 +85,15 @@ class Service:
 
     def __init__(self, config: ServiceConfig, signals: Signals, log: Log) -> None:
         self._config, self._signals, self._log = config, signals, log
-        self._endpoints = {VEHICLE_LINK: Endpoint.parse(config.master)} | config.endpoints()
+        self._endpoints = {VEHICLE_LINK: Endpoint.parse(config.master)} | config.endpoints() | config.fleet_endpoints()
+        self._fleet = config.fleet is not None
         self._core = CompanionConfig(
             seed=config.seed,
             system_id=config.system_id,
             ground_links=tuple(config.endpoints()),
             speaks_first=self._endpoints[VEHICLE_LINK].kind == "udpout",
+            fleet_number=0 if config.fleet is None else config.fleet.number,
+            fleet_calls=0 if config.fleet is None else len(config.fleet.others),
         )
         self._missions = Missions(config.mission, config.missions_dir)
         self._idle = Idle(self._core)
@@ -208,7 +211,7 @@ class Service:
         mission = ready.mission
         self._state = "preparing"
         self._say(Level.INFO, f"preparing to fly {mission.name} ({ready.file})")
-        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses())
+        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses() or self._fleet)
         with ExitStack() as stack:
             stack.callback(planning.close)
             self._idle.mission, self._idle.why_not, self._idle.autostart = mission.name, "a flight is prepared", False
@@ -284,9 +287,11 @@ class Service:
     def _show_flight(self, tick: Tick, companion: Companion, meter: FlightMeter) -> None:
         if tick.index % EVERY == 0:
             vehicle = vehicle_state(tick.now_us, companion.link, companion.telemetry)
-            self._show(vehicle, flight_state(companion, meter))
+            self._show(vehicle, flight_state(companion, meter), fleet_state(tick.now_us, companion))
 
-    def _show(self, vehicle: dict[str, Any], flight: dict[str, Any] | None) -> None:
+    def _show(
+        self, vehicle: dict[str, Any], flight: dict[str, Any] | None, fleet: dict[str, Any] | None = None
+    ) -> None:
         ready = self._missions.ready
         links = {name: _link_words(link) for name, link in self._links.items()}
         self._board.put(
@@ -300,6 +305,7 @@ class Service:
                 "vehicle": vehicle,
                 "flight": flight,
                 "last_flight": self._last_flight,
+                "fleet": fleet,
                 "links": links,
                 "notes": list(self._notes),
             }

@@ -66,6 +66,14 @@ def flight_state(companion: Companion, meter: FlightMeter) -> dict[str, Any]:
     }
 
 
+def fleet_state(now_us: int, companion: Companion) -> dict[str, Any] | None:
+    """Of the other vehicles, where each is in our mission frame; null when we are alone."""
+    if companion.fleet is None:
+        return None
+    places = companion.fleet.others.places(now_us)
+    return {f"vehicle {number}": _rounded(place) for number, place in places.items()}
+
+
 def verdict_state(verdict: Verdict, recording: str | None) -> dict[str, Any]:
     """Of a flight that is over."""
     return {
