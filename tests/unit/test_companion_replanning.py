@@ -264,3 +264,35 @@ def test_a_plan_from_scratch_steps_out_of_the_radius_first():
     assert not ready.flown.to_goal
     end = ready.flown.trajectory.position(ready.flown.trajectory.duration)
     assert with_cells(WORLD, near, end, 9.0).distance(end[None])[0] >= 0.65
+
+
+@pytest.mark.parametrize(
+    ("place", "velocity", "crosses"),
+    [
+        ((6.0, 10.0, -1.0), (-1.5, 0.0, 0.0), True),  # straight at it
+        ((6.0, 10.0, -1.0), (1.5, 0.0, 0.0), False),  # away
+        ((6.0, 10.0, -4.5), (-1.5, 0.0, 0.0), False),  # far above
+        ((0.6, 13.0, -1.0), (-0.5, -1.5, 0.0), True),  # back from the wall of the bounds
+        ((6.0, 10.0, -1.0), (-0.2, 0.0, 0.0), False),  # not soon
+    ],
+)
+def test_it_waits_on_the_ground_while_something_crosses_the_climb(place, velocity, crosses):
+    flight = Flight()
+    flight.sight.tracks.told(BEGIN_US, 1, place, velocity, 0.5)
+    assert bool(flight.replanning.in_the_way(BEGIN_US)) is crosses
+
+
+def test_it_stays_at_the_goal_while_something_crosses_the_descent_and_arrives_then():
+    flight = Flight()
+    flight.run(1.0)
+    while not flight.leg.what.to_goal or flight.now_us < end_us(flight.leg.what) - 500_000:
+        flight.run(0.02)
+    for k in range(150):  # it stands beside the goal's column for three seconds
+        flight.sight.tracks.told(flight.now_us, 1, (28.0, 8.3, -0.5), (0.0, 0.0, 0.0), 0.5)
+        flight.run(0.02)
+        if k > 60:
+            assert flight.leg.flown(flight.now_us) is not None
+    flight.sight.tracks.told(flight.now_us, 1, (28.0, 3.0, -0.5), (0.0, -2.0, 0.0), 0.5)
+    flight.run(6.0)
+    assert flight.leg.flown(flight.now_us) is None
+    assert flight.place() == pytest.approx(GOAL, abs=1e-6)
