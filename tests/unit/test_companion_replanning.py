@@ -73,6 +73,7 @@ class Flight:
                 away = points - place
                 far = np.linalg.norm(away, axis=1)
                 self.sight.map.add(self.now_us, Scan(0, place, away / far[:, None], far, 25.0))
+            self.sight.tracks.forget(self.now_us)
             due = [ready for at_us, ready in self.waiting if at_us <= self.now_us]
             self.waiting = [w for w in self.waiting if w[0] > self.now_us]
             for ready in due:
@@ -292,7 +293,6 @@ def test_it_stays_at_the_goal_while_something_crosses_the_descent_and_arrives_th
         flight.run(0.02)
         if k > 60:
             assert flight.leg.flown(flight.now_us) is not None
-    flight.sight.tracks.told(flight.now_us, 1, (28.0, 3.0, -0.5), (0.0, -2.0, 0.0), 0.5)
-    flight.run(6.0)
+    flight.run(6.0)  # it is silent, and forgotten
     assert flight.leg.flown(flight.now_us) is None
     assert flight.place() == pytest.approx(GOAL, abs=1e-6)
