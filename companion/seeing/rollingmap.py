@@ -207,10 +207,6 @@ class RollingMap:
             self._seen = (self.version, self._runs())
         return self._seen[1]
 
-    def span(self) -> tuple[float, float]:
-        """The heights between which anything is taken [m]."""
-        return self.z
-
     def _runs(self) -> MapView:
         a, b = np.nonzero(self.high > self.low)
         i, j = self._cells(a, b)
