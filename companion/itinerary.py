@@ -15,7 +15,7 @@ import numpy as np
 
 from companion.legs import Leg, circle_flaw, column_flaw, lay_out, place, radius_of, vector
 from companion.mission import Mission
-from companion.pace import go_us, paced, stop_us
+from companion.pace import paced
 from companion.profile import Circle, Turn
 from companion.seam import FloatArray, Flown, Level, Note, Order, PlanReady, PlanWanted, Reference
 from companion.steps import Step
@@ -159,17 +159,6 @@ class Itinerary:
         """Straight distance [m] to where the current step ends."""
         return float(np.linalg.norm(self._top.leg.end - position_m))
 
-    def rejoin(self, now_us: int, position_m: FloatArray) -> None:
-        """Hold a place (3,) that is off the path, and go back from there to where the mission was left.
-
-        For a vehicle that is not where it was meant to be; `holding` is False once it is back.
-        """
-        self._main.pace.halt(now_us)
-        self._errand = Walk([Leg(self.step, position_m)], entered_us=now_us)
-        self._errand.pace.halt(now_us)
-        self._purpose = None
-        self._pause(Order("resume"))
-
     def heed(self, battery: float | None) -> None:
         """What a step may wait for: what is left in the battery (0..1), where it is known."""
         wait = self.step.wait
@@ -312,13 +301,13 @@ class Itinerary:
         walk, paused = self._top, self._paused or self.stopped or self.blocked
         if walk.entered_us is None:
             return
+        changes = walk.pace.running(now_us) if paused else walk.pace.still(now_us)
+        walk.patient_us = walk.patient_us if changes else None
         if self._arrived(now_us) and self._purpose is not None and not paused:
             order, self._purpose = self._purpose, None
             self._arrive(now_us, order)
-        elif paused and walk.pace.running(now_us):
-            walk.pace.stop(now_us, stop_us(walk.motion, walk.seconds(now_us), self._limits(walk)))
-        elif not paused and walk.pace.still(now_us):
-            walk.pace.go(now_us, go_us(walk.motion, walk.seconds(now_us), self._limits(walk)))
+        elif changes:
+            walk.change_pace(now_us, self._limits(walk))
         elif self._paused and walk.pace.still(now_us) and self._next is not None and self._asked is None:
             self._run(now_us, self._next)
 

@@ -8,7 +8,6 @@ A ramp lasts T and takes ds from one to zero (or back) along 3 u^2 - 2 u^3, u = 
 it costs T/2 of path time: at 3 m/s and T = 1 s the vehicle stops within 1.5 m.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
@@ -21,7 +20,9 @@ from planner import Limits
 
 RAMPS_US = (300_000, 500_000, 700_000, 850_000, 1_000_000, 1_200_000, 1_500_000, 2_000_000, 3_000_000)
 """Durations of a ramp that are tried, shortest first; even numbers, so that half of one is whole."""
-LOOKS = 16
+EXCESS, JERK_EXCESS = 1.05, 1.5
+"""Where the path itself does what it may, a ramp on top asks for so many times the acceleration and the jerk."""
+LOOKS = 60
 """Points of a ramp at which its acceleration is looked at."""
 
 
@@ -79,12 +80,6 @@ class Pace:
         """Begin to run again; only while `still`."""
         self._change(now_us, _Kind.STARTING, ramp_us)
 
-    def halt(self, now_us: int) -> None:
-        """Stand at once: what is walked is not where the vehicle is."""
-        if not self.still(now_us):
-            path_us = self.at(now_us).us
-            self._kind, self._since_us, self._path_us, self._ramp_us = _Kind.STOPPING, now_us, round(path_us), 0
-
     def _change(self, now_us: int, kind: _Kind, ramp_us: int) -> None:
         self._path_us = round(self.at(now_us).us)
         self._kind, self._since_us, self._ramp_us = kind, now_us, ramp_us
@@ -99,7 +94,7 @@ def paced(state: MotionState, time: PathTime) -> MotionState:
 
 
 def stop_us(motion: Callable[[float], MotionState], path_s: float, limits: Limits) -> int:
-    """The shortest ramp [us] to a stop, from `path_s` on a path, within the limits of acceleration and jerk."""
+    """The shortest ramp [us] to a stop, from `path_s` on a path, within the limits; 0: none is at this moment."""
     return _ramp(motion, path_s, limits, Pace.stop)
 
 
@@ -111,16 +106,13 @@ def go_us(motion: Callable[[float], MotionState], path_s: float, limits: Limits)
 def _ramp(
     motion: Callable[[float], MotionState], path_s: float, limits: Limits, how: Callable[[Pace, int, int], None]
 ) -> int:
-    for ramp_us in RAMPS_US[:-1]:
-        pace, T = Pace(), ramp_us * 1e-6
+    for ramp_us in RAMPS_US:
+        pace = Pace()
         how(pace, 0, ramp_us)
-        fits = True
-        for k in range(LOOKS + 1):
-            time = pace.at(k * ramp_us // LOOKS)
-            state = motion(path_s + time.us * 1e-6)
-            hard = float(np.linalg.norm(paced(state, time).acceleration))
-            fits &= hard <= max(limits.acceleration, float(np.linalg.norm(state.acceleration))) * (1.0 + 1e-9)
-            fits &= 6.0 / T**2 * math.dist(state.velocity, (0.0, 0.0, 0.0)) <= limits.jerk
-        if fits:
+        times = [pace.at(k * ramp_us // LOOKS) for k in range(LOOKS + 1)]
+        hard = np.array([paced(motion(path_s + time.us * 1e-6), time).acceleration for time in times])
+        rough = np.diff(hard, axis=0) / (ramp_us * 1e-6 / LOOKS)
+        within = float(np.linalg.norm(hard, axis=1).max()) <= EXCESS * limits.acceleration
+        if within and float(np.linalg.norm(rough, axis=1).max()) <= JERK_EXCESS * limits.jerk:
             return ramp_us
-    return RAMPS_US[-1]
+    return 0

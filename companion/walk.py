@@ -6,10 +6,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from companion.legs import Leg, Path
-from companion.pace import Pace
+from companion.pace import RAMPS_US, Pace, go_us, stop_us
 from companion.profile import MotionState, Turn
+from planner import Limits
 
 ZERO = np.zeros(3)
+PATIENCE_US = 500_000
 
 
 @dataclass(slots=True)
@@ -22,6 +24,7 @@ class Walk:
     entered_us: int | None = None  # on the path's clock
     turn: Turn | None = None  # of a yaw step
     released: bool = False  # the wait is over
+    patient_us: int | None = None  # since when it waits for a moment at which its pace can change within the limits
     open_ended: bool = False  # what is flown leads to a stop, not to the leg's end
 
     @property
@@ -31,6 +34,16 @@ class Walk:
     def seconds(self, now_us: int) -> float:
         """How long it is in its leg [s]."""
         return 0.0 if self.entered_us is None else (self.pace.at(now_us).us - self.entered_us) / 1e6
+
+    def change_pace(self, now_us: int, limits: Limits) -> None:
+        """Begin to stop if it runs, to run if it stands: at once, or within `PATIENCE_US` where the path is gentler."""
+        stops = self.pace.running(now_us)
+        ramp = (stop_us if stops else go_us)(self.motion, self.seconds(now_us), limits)
+        self.patient_us = now_us if self.patient_us is None else self.patient_us
+        if not ramp and now_us - self.patient_us < PATIENCE_US:
+            return
+        self.patient_us = None
+        (self.pace.stop if stops else self.pace.go)(now_us, ramp or RAMPS_US[-1])
 
     def duration(self) -> float:
         """Of the leg [s]."""
