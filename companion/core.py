@@ -18,7 +18,7 @@ on purpose: the order of a tick is what one wants to see whole.
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -67,6 +67,7 @@ PACE_WAIT_US = 4_000_000
 """So long a ready vehicle is waited for until its pace has been measured."""
 ESTIMATOR_FRESH_US = 2_000_000
 """What was said of the estimator before that is not held against it."""
+POSITION_LATE_US = 60_000
 POSITION_FRESH_US = 200_000
 """A way back begins where the vehicle is now, not where it was before it fell silent."""
 TEXT_FRESH_US = 3_000_000
@@ -187,7 +188,7 @@ class Companion:
         if self.fleet is not None:
             out.extend(self._told_to_others(self.fleet, now_us, flight_us))
         if self.phase is Phase.FLYING:
-            out.extend(self.replanning.step(flight_us, self.pose(flight_us)))
+            out.extend(self.replanning.step(flight_us, self._carried_on(now_us)))
             out.extend(self.replanning.take_said())
             out.extend([] if self.lookout is None else self.lookout.step(flight_us))
         self._stream(now_us, out)
@@ -224,6 +225,13 @@ class Companion:
         north, east = to_local(Geodetic(t.global_e7[0] * 1e-7, t.global_e7[1] * 1e-7), latitude, longitude)
         high = altitude if above_home else altitude - above_sea - float(here[2])
         return float(here[0]) + north, float(here[1]) + east, high
+
+    def _carried_on(self, now_us: int) -> Pose:
+        """The pose, carried on at its velocity when it is late: what was said before a silence is no drift."""
+        pose, age_us = self.pose(self._flight_us), now_us - (self.telemetry.position_us or now_us)
+        if age_us <= POSITION_LATE_US:
+            return pose
+        return replace(pose, position_m=pose.position_m + pose.velocity_m * (age_us * 1e-6))
 
     # ---- 2. inputs ----------------------------------------------------------------------------------------------
 
@@ -509,8 +517,15 @@ class Companion:
         heard = self.telemetry.position_us is not None and now_us - self.telemetry.position_us < POSITION_FRESH_US
         flies = self.autopilot.airborne(self.telemetry) or not self.autopilot.takes_off_itself
         self.itinerary.advance(self._flight_us)  # to its stop
+        stands = self.rejoin.settle(self.pose(self._flight_us), in_control and heard and flies)
+        if stands and self._replanned():  # what is seen counts: planned anew from here, not in the world as it was told
+            self.itinerary.stopped = False
+            if self.itinerary.flown(self._flight_us) is None:
+                return None  # the mission's clock starts again
+            self.replanning.lost()
+            return Event.REJOINED
         target = self.itinerary.reference(self._flight_us)
-        wanted = self.rejoin.step(self.pose(self._flight_us), in_control and heard and flies, target)
+        wanted = self.rejoin.wanted(target) if stands else None
         out.extend([] if wanted is None else [wanted])
         if self.rejoin.refusal:
             self._blame(f"no way back to the mission: {self.rejoin.refusal}")
@@ -518,6 +533,11 @@ class Companion:
         if not in_control and self._command_failed(now_us, None):
             return Event.MODE_LOST
         return Event.REJOINED if self.rejoin.ready and in_control else None
+
+    def _replanned(self) -> bool:
+        """Whether the leg under way is planned again and again, by what is seen."""
+        aim = self.itinerary.aim()
+        return isinstance(self.replanning, Replanned) and aim is not None and not aim.via_m and self.itinerary.index > 0
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
         command = self._command

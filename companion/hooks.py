@@ -58,6 +58,10 @@ class Replanning(Protocol):
         """An answer."""
         ...
 
+    def lost(self) -> None:
+        """The vehicle stands elsewhere than what is flown says: begin anew from where it is."""
+        ...
+
     def step(self, flight_us: int, pose: Pose) -> list[ReplanWanted]:
         """Once a tick while FLYING; the questions to ask now."""
         ...
@@ -105,6 +109,9 @@ class NothingReplanned:
     trouble = ""
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
+        pass
+
+    def lost(self) -> None:
         pass
 
     def step(self, flight_us: int, pose: Pose) -> list[ReplanWanted]:

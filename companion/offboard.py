@@ -49,8 +49,8 @@ FULL = type_mask(position=True, velocity=True, acceleration=True, yaw=True, yaw_
 """Position, velocity, acceleration and yaw: 0x800. Position alone would be input-shaped by the autopilot, and late."""
 
 
-SPARE = 1.1
-"""A reference may ask for so much more than its limits say: rounding, and ramps between two of them."""
+SPARE = 1.25
+"""A reference may ask for so much more than its limits say: a stop begins with the speed the vehicle has."""
 
 
 def flaw(reference: Reference, fence: Geofence | None, speed: float, acceleration: float) -> str:

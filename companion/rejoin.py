@@ -1,6 +1,6 @@
 """Back to the mission from wherever the vehicle is: hold there, plan a way to where the mission waits, fly it.
 
-    begin()  step() ... step()  take(plan)  go()  reference() ... until it is not under_way()
+    begin()  settle() ...  wanted()  take(plan)  go()  reference() ... until it is not under_way()
 
 Until the vehicle obeys, the point to hold is where it says it is; then it is where it can come to rest. Once it stands
 there, a way is planned through the mission's world, from rest to rest. Everything is in the mission frame (NED).
@@ -50,16 +50,10 @@ class Rejoin:
         self._fixed = False
         self.ready, self.refusal = False, ""
 
-    def step(self, pose: Pose, obeys: bool, target: Reference) -> PlanWanted | None:
-        """Once a tick: the plan that is wanted, if it is time to ask for it.
-
-        Parameters
-        ----------
-        obeys : whether the vehicle follows our setpoints.
-        target : where the mission waits.
-        """
+    def settle(self, pose: Pose, obeys: bool) -> bool:
+        """Once a tick: whether the vehicle stands where it holds; `obeys`: it follows our setpoints."""
         if self._asked is not None or self.ready:
-            return None
+            return True
         speed = float(np.linalg.norm(pose.velocity_m))
         slow = speed <= SLOW
         if not obeys:
@@ -69,7 +63,11 @@ class Rejoin:
             self._fixed = True
         elif slow and float(np.linalg.norm(pose.position_m - self._here)) > NEAR:
             self._here = pose.position_m
-        if not obeys or not slow:
+        return obeys and slow
+
+    def wanted(self, target: Reference) -> PlanWanted | None:
+        """The plan of a way to where the mission waits, if it is time to ask for it; only once it stands."""
+        if self._asked is not None or self.ready:
             return None
         if float(np.linalg.norm(target.velocity_m)) > AT_REST:
             return None  # it still comes to rest

@@ -97,6 +97,7 @@ class Replanning:
         self._rung = 0
         self._stopped_us = 0
         self._on_track_us = 0
+        self._lost = False
         self._stays_us = 0  # when the goal was reached first
         self._at_goal = False  # the stop is one at the goal, until what crosses it is gone
 
@@ -136,6 +137,10 @@ class Replanning:
                 met = np.flatnonzero(((way - foot) ** 2).sum(axis=1) < near**2)
                 soonest = min(soonest, float(ahead[met[0]]) if len(met) else math.inf)
         return soonest
+
+    def lost(self) -> None:
+        """The vehicle stands elsewhere than what is flown says: begin anew from where it is at the next step."""
+        self._lost = True
 
     def take_said(self) -> list[Note]:
         """What people should know; each is told once."""
@@ -180,7 +185,8 @@ class Replanning:
         if error <= DRIFT_M:
             self._on_track_us = flight_us
         jumped, self._sight.jumped = self._sight.jumped, False
-        if not jumped and flight_us - self._on_track_us <= DRIFT_US:
+        lost, self._lost = self._lost, False
+        if not (jumped or lost) and flight_us - self._on_track_us <= DRIFT_US:
             return flown
         stop = self._stop_from(flight_us, np.array([pose.position_m, pose.velocity_m, np.zeros(3)]))
         if stop is None:

@@ -1,8 +1,13 @@
 """What becomes of a flight when the link to the vehicle fails, in both flavours: as docs/safety.md says."""
 
+from pathlib import Path
+
 import pytest
 
+from companion.cli.vehicle import build_vehicle
+from companion.missionfile import parse_mission
 from companion.phases import Phase
+from tests.conftest import HOP
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -129,3 +134,21 @@ class OtherClient:
 def test_answers_to_another_client_are_not_taken_for_ours(fly, autopilot):
     flight = fly(autopilot=autopilot, between=OtherClient)
     assert flight.verdict.ok, flight.verdict.failure
+
+
+@pytest.mark.parametrize("autopilot", FLAVOURS)
+def test_after_a_blackout_a_mission_that_sees_is_planned_anew_by_what_it_sees(fly, autopilot):
+    unknown = Path("missions/l_shape_unknown.yaml").read_text(encoding="utf-8")
+    flight = fly(unknown, autopilot=autopilot, between=lambda vehicle: Blackout(vehicle, 12.0, 17.0))
+    assert flight.companion.phase is Phase.DONE
+    assert not flight.companion.failure
+    assert flight.verdict.min_clearance_m > 0.0
+    assert any(note.startswith("rejoining -> flying") for note in flight.notes)
+
+
+def test_a_px4_that_would_not_hold_without_setpoints_is_told_to(fly):
+    mission = parse_mission(HOP.encode(), "hop.yaml")
+    flight = fly(between=lambda _: build_vehicle(mission, 1, parameters={"COM_OBL_RC_ACT": 3}))
+    assert "COM_OBL_RC_ACT set to 5 (Hold)" in flight.notes
+    assert flight.verdict.ok
+    assert not [note for note in fly().notes if "COM_OBL_RC_ACT" in note]  # 5 already

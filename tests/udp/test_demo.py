@@ -104,3 +104,12 @@ def test_ctrl_c_in_flight_lands_and_the_recording_is_closed_properly(tmp_path):
     assert "operator" in result["failure"]
     info = json.loads(companion("log", "info", result["recording"], "--json").stdout)
     assert info["complete"]
+
+
+def test_the_demo_flies_an_ardupilot_too(tmp_path):
+    done = companion("demo", "--autopilot", "ardupilot", "--record", str(tmp_path), "--json")
+    assert done.returncode == 0, done.stdout + done.stderr
+    flight = json.loads(done.stdout)
+    assert flight["phase"] == "done"
+    assert flight["tracking_error_p95_m"] < 0.25
+    assert flight["setpoint_rate_hz"] == pytest.approx(50.0, abs=0.5)

@@ -86,9 +86,9 @@ STILL = np.zeros(3)
         (Reference(np.array([1.0, 2.0, -3.0]), np.array([0.0, np.inf, 0.0]), STILL, 0.0), "not a place to fly to"),
         (Reference(np.array([1.0, 2.0, -3.0]), STILL, STILL, np.nan), "not a place to fly to"),
         (Reference(np.array([1.0, 2.0, -6.0]), STILL, STILL, 0.0), "outside the fence"),
-        (Reference(np.array([1.0, 2.0, -3.0]), np.array([3.0, 2.0, 0.0]), STILL, 0.0), "faster than 3 m/s"),
+        (Reference(np.array([1.0, 2.0, -3.0]), np.array([3.0, 3.0, 0.0]), STILL, 0.0), "faster than 3 m/s"),
         (
-            Reference(np.array([1.0, 2.0, -3.0]), STILL, np.array([0.0, 0.0, 7.0]), 0.0),
+            Reference(np.array([1.0, 2.0, -3.0]), STILL, np.array([0.0, 0.0, 8.0]), 0.0),
             "an acceleration above 6 m/s^2",
         ),
     ],
