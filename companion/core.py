@@ -247,7 +247,7 @@ class Companion:
                     self.link.impostor = ""
                 out.extend(self.router.route(now_us, item, self.link.system_id, self.link.peer))
             case Datagram(link=link) if link in self.config.ground_links:
-                out.extend(self.ground.take(now_us, item, lambda order: self.obey(now_us, order)))
+                out.extend(self.ground.take(now_us, item, lambda order: self._ordered(now_us, order, out)))
                 routed = self.router.route(now_us, item, self.link.system_id, self.link.peer)
                 out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
             case Datagram(link=link) if self.fleet is not None and link.startswith(FLEET_LINK):
@@ -261,6 +261,13 @@ class Companion:
                 by = f" ({item.source})" if item.source else ""
                 told = Note(Level.WARNING, f"{item.name}{by}: {reason}") if reason else Note(Level.INFO, item.name + by)
                 out.extend([told] if reason or item.name != "land" else [])
+
+    def _ordered(self, now_us: int, order: Order, out: list[Output]) -> str:
+        """An order of a ground station's; what is refused it is told itself."""
+        reason = self.obey(now_us, order)
+        if not reason:
+            out.append(Note(Level.INFO, f"{order.name} ({order.source})"))
+        return reason
 
     def _hear(self, now_us: int, packet: Any) -> None:
         """One packet of the autopilot's."""

@@ -301,6 +301,8 @@ class Mission(Model):
                 places.append((["steps", i, "goto"], step.goto.ned()))
             elif step.via is not None:
                 places.extend((["steps", i, "via", k], place.ned()) for k, place in enumerate(step.via))
+            elif step.orbit is not None:
+                places.append((["steps", i, "orbit"], min(step.orbit.ring(), key=fence.inside)))
             elif step.takeoff is not None and fence.ceiling < step.takeoff.altitude + self.planner_radius():
                 places.append((["steps", i, "takeoff"], (*self.start_m()[:2], -step.takeoff.altitude)))
         told = ((keys, fence.told(place, self.planner_radius())) for keys, place in places)

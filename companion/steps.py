@@ -1,5 +1,6 @@
 """The steps of a mission, as its file writes them."""
 
+import math
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
@@ -34,6 +35,12 @@ class Orbit(Located):
     def centre(self) -> Vector:
         """In the mission frame, z down."""
         return (self.north, self.east, -self.altitude)
+
+    def ring(self, count: int = 360) -> list[Vector]:
+        """Points of the circle, likewise."""
+        turns = [2.0 * math.pi * k / count for k in range(count)]
+        r = self.radius
+        return [(self.north + r * math.cos(t), self.east + r * math.sin(t), -self.altitude) for t in turns]
 
 
 class Yaw(Model):

@@ -19,18 +19,22 @@ def plan_mission(path: Path, seed: int, plot: Path | None, as_json: bool) -> int
     out = show.console()
     mission = load_mission(path)
     world = mission.planner_world()
-    requests = Itinerary(mission, seed).wanted()
+    itinerary = Itinerary(mission, seed)
+    requests, obstruction = itinerary.wanted(), itinerary.obstruction()
     with show.working(out, "preparing kernels (compiled the first time)"):
         warm_up()
         answers = [answer(world, wanted) for wanted in requests]
-    ok = all(a.certified for a in answers)
+    ok = all(a.certified for a in answers) and not obstruction
     if plot is not None:
         _draw(world, requests, answers, plot, out)
     if as_json:
         legs = [_leg_json(a) for a in answers]
-        show.print_json({"ok": ok, "mission": mission.name, "seed": seed, "legs": legs})
+        found = {"ok": ok, "mission": mission.name, "seed": seed, "legs": legs}
+        show.print_json(found | ({"obstruction": obstruction} if obstruction else {}))
     else:
         _print(mission.name, answers)
+    if obstruction:
+        out.print(f"[bold red]✗[/] {show.plain(f'{path}: {obstruction}')}", soft_wrap=True)
     for leg in answers:
         if not leg.certified:
             reason = show.plain(f"{path}: step {leg.request_id}: {_reason(leg)}")

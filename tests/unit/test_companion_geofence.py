@@ -71,6 +71,7 @@ steps:
   - takeoff: {altitude: 3}
   - via: [{north: 3, east: 3, altitude: 3}]
   - goto: {north: 8, east: 8, altitude: 3}
+  - orbit: {north: 5, east: 5, altitude: 3, radius: 3}
   - land
 """
 SQUARE = "{include: [{corners: [{north: 0, east: 0}, {north: 9, east: 0}, {north: 9, east: 9}, {north: 0, east: 9}]}]}"
@@ -82,6 +83,7 @@ SQUARE = "{include: [{corners: [{north: 0, east: 0}, {north: 9, east: 0}, {north
         (SQUARE.replace("9", "7"), 8, "steps.2.goto: found a place 1.41 m outside the fence"),
         ("{exclude: [{circle: {north: 3, east: 3, radius: 1}}]}", 7, "steps.1.via.0: found a place 1.00 m outside"),
         ("{exclude: [{circle: {north: 1, east: 1.5, radius: 1}}]}", 2, "vehicle.start: found a place 0.50 m outside"),
+        ("{exclude: [{circle: {north: 5, east: 0, radius: 2.5}}]}", 9, "steps.3.orbit: found a place 0.50 m outside"),
         ("{ceiling: 3.5}", 6, "steps.0.takeoff: found a place 0.25 m too near the fence (it keeps 0.75 m)"),
         (SQUARE.replace("]}]}", "]}, {circle: {north: 0, east: 0, radius: 5}}]}"), 4, "fence.include"),
         (
