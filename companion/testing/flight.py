@@ -16,11 +16,13 @@ from companion.drivers.planning import InlinePlanning
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap
 from companion.errors import MissionError
+from companion.fleet.missions import has_vehicles
 from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
 from companion.seam import Order
 from companion.testing.spec import FlightResult, FlightSpec
 from companion.testing.taps import Innovations, Story, Surroundings, surroundings
+from companion.testing.together import fly_together
 from companion.testing.wire import FaultyWire
 from companion.verdict import FlightMeter, Verdict, judge
 from fakevehicle.vehicle import Vehicle
@@ -159,8 +161,11 @@ class Flight:
 
 
 def fly(spec: FlightSpec) -> FlightResult:
-    """Fly a spec to its end; a mission that is none is a result, too."""
+    """Fly a spec to its end, all vehicles of a mission with several; a mission that is none is a result, too."""
     try:
+        data = read_mission_file(spec.mission) if isinstance(spec.mission, Path) else spec.mission
+        if has_vehicles(data):
+            return fly_together(spec, data)
         flight = Flight(spec)
     except MissionError as error:
         return FlightResult(spec, ok=False, cause=f"{error.file}: {error.problems[0]}")

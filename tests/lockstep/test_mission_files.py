@@ -7,6 +7,7 @@ import pytest
 from companion.cli.test import mission_files
 from companion.testing.flight import fly
 from companion.testing.spec import FlightSpec
+from companion.testing.wire import LinkFaults
 
 MISSIONS = list(mission_files([Path(__file__).parents[2] / "missions"]))
 
@@ -23,3 +24,8 @@ def test_what_appears_and_what_moves_is_not_touched(name: str) -> None:
     result = fly(FlightSpec(MISSIONS[0].parent / name))
     assert result.ok, f"{result.cause}\n{result.story}"
     assert result.verdict.min_clearance_m == result.min_clearance_m > 0.0
+
+
+def test_what_is_there_for_one_vehicle_is_refused_for_several() -> None:
+    with pytest.raises(ValueError, match="link: found with a mission of several vehicles"):
+        fly(FlightSpec(MISSIONS[0].parent / "swap.yaml", link=LinkFaults(loss=0.1)))
