@@ -156,6 +156,7 @@ class Replanning:
         if aim is not self._aim:
             self._forget()
             self._aim, self._due_us, self._on_track_us = aim, flight_us, flight_us
+            self._sight.jumped = False
         flown = self._where_it_is(flight_us, pose, flown)
         scratch = self._cold_answer
         if scratch is not None and scratch.flown is not None and not flown.to_goal and flight_us >= end_us(flown):

@@ -218,8 +218,10 @@ class RollingMap:
         )
         k1 = np.minimum(high + math.ceil(more), math.ceil(top)) if more < 1e5 else np.full(len(a), math.ceil(top))
         order = np.lexsort((j, i))
-        runs = np.column_stack((i, j, k0, k1))[order].astype(np.int16)
-        return MapView((0.0, 0.0, 0.0), self.resolution, runs, self.version)
+        first = self.window.tolist()  # counted from there, numbers stay small wherever the flight is
+        runs = np.column_stack((i - first[0], j - first[1], k0, k1))[order].astype(np.int16)
+        origin = (first[0] * self.resolution, first[1] * self.resolution, 0.0)
+        return MapView(origin, self.resolution, runs, self.version)
 
     def _cells(self, a: NDArray[np.int64], b: NDArray[np.int64]) -> tuple[LongArray, LongArray]:
         """The lattice's (i, j) of places in the arrays."""

@@ -99,6 +99,7 @@ class Sight:
         """The mission frame is fixed: what comes from now on counts."""
         self._placed = True
         self._poses.clear()
+        self.map.shift()
 
     def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
         """One packet of the vehicle's system; `pose` is what telemetry says with it. Whether it told of something."""

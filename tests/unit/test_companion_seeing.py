@@ -103,20 +103,32 @@ def looking(position, directions, distance, maximum=25.0):
     return Scan(0, np.array(position, dtype=float), directions, np.array(distance, dtype=float), maximum)
 
 
+def runs(seen_map):
+    """As the view has them, counted from the mission frame's origin."""
+    view = seen_map.view()
+    return (view.runs + np.round([*np.array(view.origin) / view.resolution, 0.0]).astype(int)).tolist()
+
+
 def cells(seen_map):
-    return {tuple(run[:2]) for run in seen_map.view().runs.tolist()}
+    return {tuple(run[:2]) for run in runs(seen_map)}
+
+
+def test_far_from_the_origin_a_cell_keeps_its_place():
+    seen_map = RollingMap(0.05, (-4.0, 0.0))
+    seen_map.add(0, looking((90_000.01, -70_000.01, -1.5), [(1, 0, 0)], [3.02]))
+    assert cells(seen_map) == {(round(90_003.0 / 0.05), round(-70_000.05 / 0.05))}
 
 
 def test_a_hit_takes_the_cell_under_it_from_bottom_to_top():
     seen_map = RollingMap(0.5, (-4.0, 0.0))
     assert seen_map.add(0, looking((0.1, 0.1, -1.5), [(1, 0, 0)], [3.0])) == 1
-    assert seen_map.view().runs.tolist() == [[6, 0, -8, 0]]
+    assert runs(seen_map) == [[6, 0, -8, 0]]
 
 
 def test_a_column_of_some_height_takes_only_that_above_and_below():
     seen_map = RollingMap(0.5, (-4.0, 0.0), column=0.5)
     seen_map.add(0, looking((0.1, 0.1, -1.6), [(1, 0, 0)], [3.0]))
-    assert seen_map.view().runs.tolist() == [[6, 0, -5, -2]]
+    assert runs(seen_map) == [[6, 0, -5, -2]]
 
 
 def test_a_cell_is_free_again_after_some_scans_that_look_through_it_and_not_before():
@@ -267,7 +279,7 @@ def test_hits_on_what_the_mission_tells_of_and_on_the_ground_are_left_out():
     made.take(0, position(20, 0.0, 0.0, -2.0), low)
     made.take(0, packet(ring([65535] * 36 + [300])), low)
     made.take(0, packet(ring([450])), low)
-    assert not any(run[2] > 0 for run in made.map.view().runs.tolist())
+    assert not any(run[2] > 0 for run in runs(made.map))
 
 
 def test_an_estimator_that_moves_its_origin_empties_the_map_and_is_told():
