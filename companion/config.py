@@ -52,6 +52,7 @@ class ServiceConfig(BaseModel):
 
     master: str  # where the vehicle is
     out: Annotated[list[str], Field(max_length=MAX_OUTS)] = []  # ground stations
+    sensors: Annotated[list[str], Field(max_length=MAX_OUTS)] = []  # that do not speak through the autopilot
     mission: Path | None = None
     missions_dir: Path | None = None
     autostart: bool = False
@@ -73,7 +74,7 @@ class ServiceConfig(BaseModel):
     def _master(cls, text: str) -> str:
         return _url(text)
 
-    @field_validator("out")
+    @field_validator("out", "sensors")
     @classmethod
     def _outs(cls, texts: list[str]) -> list[str]:
         return [_url(text) for text in texts]
@@ -98,6 +99,10 @@ class ServiceConfig(BaseModel):
     def endpoints(self) -> dict[str, Endpoint]:
         """The ground stations' links by name."""
         return {f"out{k}": Endpoint.parse(url) for k, url in enumerate(self.out)}
+
+    def sensor_endpoints(self) -> dict[str, Endpoint]:
+        """The sensors' links by name."""
+        return {f"sensor{k}": Endpoint.parse(url) for k, url in enumerate(self.sensors)}
 
     def fleet_endpoints(self) -> dict[str, Endpoint]:
         """The links to other companions by name: where they are heard, and one that calls each."""
@@ -179,7 +184,7 @@ def _of_environment(environment: Mapping[str, str]) -> tuple[dict[str, Any], lis
             near = difflib.get_close_matches(key, keys, n=1)
             meant = f"; did you mean {PREFIX}{near[0].upper()}?" if near else ""
             unknown.append(f"environment: {name}: found an unknown variable, expected one of docs/service.md{meant}")
-        elif key == "out":
+        elif key in ("out", "sensors"):
             values[key] = [url.strip() for url in text.split(",") if url.strip()]
         elif key in ("master", "log", *PATHS):
             values[key] = text or None

@@ -47,6 +47,7 @@ from companion.vehicleclock import VehicleClock
 from companion.vehiclelink import AUTOPILOT_COMPONENT, COMPONENT_ID, VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
 from wire.dialect import mavlink
+from wire.framing import Framer
 
 HEARTBEAT_US = 1_000_000
 VEHICLE_SILENT_US = 3_000_000
@@ -85,6 +86,7 @@ class CompanionConfig:
     wait_vehicle_s: float = 60.0
     wait_ready_s: float = 120.0
     wait_plan_s: float = 60.0
+    sensor_links: tuple[str, ...] = ()  # of sensors that do not speak through the autopilot
     fleet_number: int = 0  # ours among several vehicles; 0: there are no others
     fleet_calls: int = 0  # links that call the others
 
@@ -123,6 +125,7 @@ class Companion:
             self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
         self.fence = mission.geofence()
         self.router = Router(config.ground_links)
+        self._sensed = Framer()
         self.fleet: Member | None = None
         if mission.senses() or config.fleet_number:
             sight = Sight(mission)
@@ -250,6 +253,10 @@ class Companion:
                 out.extend(self.ground.take(now_us, item, lambda order: self._ordered(now_us, order, out)))
                 routed = self.router.route(now_us, item, self.link.system_id, self.link.peer)
                 out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
+            case Datagram(link=link) if link in self.config.sensor_links:
+                for packet in self._sensed.packets(item.data):
+                    if packet.system_id == self.link.system_id:
+                        self.seeing.take(now_us, packet, self.pose(self._flight_us))
             case Datagram(link=link) if self.fleet is not None and link.startswith(FLEET_LINK):
                 self.fleet.take(now_us, item)
             case ReplanReady():
@@ -494,8 +501,13 @@ class Companion:
         if self.autopilot.takes_off_itself:
             if self.autopilot.airborne(self.telemetry):
                 return Event.AIRBORNE
-            if climbing:
-                self._command = None  # a repeat is refused in the air
+            repeat_refused = (
+                isinstance(self._command, Command)
+                and self._command.sent > 1
+                and self._command.outcome is Outcome.REFUSED
+            )
+            if climbing or repeat_refused:  # it climbs already, be the answer to the first one lost
+                self._command = None
             return Event.REFUSED if self._command_failed(now_us, None) else None
         self.itinerary.advance(self._flight_us)
         return Event.AIRBORNE if self.itinerary.index > 0 and self.autopilot.airborne(self.telemetry) else None

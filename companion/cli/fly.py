@@ -1,13 +1,11 @@
 """`companion fly` and `companion demo`: a mission over UDP, recorded, judged at the end."""
 
 import gc
-import re
 import subprocess
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict
-from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,9 +20,11 @@ from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
-from companion.errors import CompanionError
+from companion.errors import CompanionError, MissionError
+from companion.fleet.missions import has_vehicles
 from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
+from companion.service.queue import recording_file
 from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
 from logs.errors import RecordingError
@@ -64,6 +64,8 @@ def fly_mission(
 ) -> int:
     """Fly `path` on whatever answers at `master`; returns the exit code."""
     data = read_mission_file(path)
+    if has_vehicles(data):
+        raise MissionError(str(path), ["vehicles: found several, expected one: companion simulate flies several"])
     mission = parse_mission(data, str(path))
     endpoints = {VEHICLE_LINK: Endpoint.parse(master)} | ground_endpoints(outs)
     config = CompanionConfig(
@@ -81,16 +83,6 @@ def fly_mission(
 def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:
     """The ground stations' links by name."""
     return {f"out{k}": Endpoint.parse(url) for k, url in enumerate(outs)}
-
-
-def recording_file(directory: Path, mission: Mission) -> Path:
-    """A file name in `directory` (made if need be) that says what and when, and is not taken."""
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CompanionError(f"{directory}: cannot make the directory: {error.strerror or error}") from error
-    slug = re.sub(r"[^a-z0-9]+", "-", mission.name.lower()).strip("-") or "mission"
-    return directory / f"{slug}-{datetime.now(UTC):%Y%m%dT%H%M%S_%fZ}.mcap"
 
 
 def _fly(

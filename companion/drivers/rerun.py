@@ -39,7 +39,8 @@ def fresh_companion(recording: Recording) -> Companion:
         raise RerunError(f"{recording.path}: holds no mission and configuration: not a recording of a companion")
     try:
         values: dict[str, Any] = json.loads(stored)
-        config = CompanionConfig(**{**values, "ground_links": tuple(values.get("ground_links", ()))})
+        values = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
+        config = CompanionConfig(**values)
     except (ValueError, TypeError) as error:
         raise RerunError(f"{recording.path}: its configuration is not one of this version: {error}") from error
     return Companion(parse_mission(attachment.data, f"{recording.path}: {MISSION_ATTACHMENT}"), config)

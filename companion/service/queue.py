@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from companion.errors import CompanionError, MissionError
+from companion.fleet.missions import has_vehicles, split
 from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
 
@@ -28,6 +29,7 @@ class Missions:
     Parameters
     ----------
     file, folder : one mission, again and again when it is asked for; or each of a folder once, in the order of names.
+    number : of a file with several vehicles, which is ours; 0: none.
 
     Attributes
     ----------
@@ -36,8 +38,8 @@ class Missions:
 
     UPLOADED = "uploaded.plan"
 
-    def __init__(self, file: Path | None = None, folder: Path | None = None) -> None:
-        self._file, self._folder = file, folder
+    def __init__(self, file: Path | None = None, folder: Path | None = None, number: int = 0) -> None:
+        self._file, self._folder, self._number = file, folder, number
         self._flown: set[str] = set()
         self._uploaded: Ready | None = None
         self.ready: Ready | None = None
@@ -54,9 +56,18 @@ class Missions:
             return
         try:
             data = read_mission_file(path)
-            self.ready, self.why_not = Ready(str(path), data, parse_mission(data, str(path))), ""
+            self.ready, self.why_not = self._read(str(path), data), ""
         except MissionError as error:
             self.ready, self.why_not = None, error.args[0].splitlines()[0]
+
+    def _read(self, file: str, data: bytes) -> Ready:
+        if not has_vehicles(data):
+            return Ready(file, data, parse_mission(data, file))
+        parts = split(data, file)
+        if not 1 <= self._number <= len(parts):
+            raise MissionError(file, [f"vehicles: found {len(parts)}, expected fleet.number to say which is ours"])
+        part = parts[self._number - 1]
+        return Ready(file, part.data, part.mission)
 
     def upload(self, data: bytes | None) -> None:
         """A ground station's plan comes next, before what the files say; None: it was cleared."""

@@ -85,17 +85,20 @@ class Service:
 
     def __init__(self, config: ServiceConfig, signals: Signals, log: Log) -> None:
         self._config, self._signals, self._log = config, signals, log
-        self._endpoints = {VEHICLE_LINK: Endpoint.parse(config.master)} | config.endpoints() | config.fleet_endpoints()
+        self._endpoints = {VEHICLE_LINK: Endpoint.parse(config.master)} | config.endpoints()
+        self._endpoints |= config.sensor_endpoints() | config.fleet_endpoints()
         self._fleet = config.fleet is not None
+        number = 0 if config.fleet is None else config.fleet.number
         self._core = CompanionConfig(
             seed=config.seed,
             system_id=config.system_id,
             ground_links=tuple(config.endpoints()),
+            sensor_links=tuple(config.sensor_endpoints()),
             speaks_first=self._endpoints[VEHICLE_LINK].kind == "udpout",
-            fleet_number=0 if config.fleet is None else config.fleet.number,
+            fleet_number=number,
             fleet_calls=0 if config.fleet is None else len(config.fleet.others),
         )
-        self._missions = Missions(config.mission, config.missions_dir)
+        self._missions = Missions(config.mission, config.missions_dir, number)
         self._idle = Idle(self._core)
         self._board = Board()
         self._began_s = time.monotonic()

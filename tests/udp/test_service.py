@@ -15,6 +15,8 @@ from typing import Any
 
 import pytest
 
+from companion.drivers.rerun import rerun
+from logs.reader import Recording
 from tests.conftest import HOP
 from tests.vehicle_process import VehicleProcess, free_port
 
@@ -63,25 +65,37 @@ class Running:
         return [json.loads(line)["text"] for line in self.log.read_text().splitlines()]
 
 
-def test_a_service_waits_for_its_vehicle_flies_and_lands_on_sigterm(tmp_path: Path) -> None:
-    (tmp_path / "hop.yaml").write_text(HOP.replace("  - land", "  - hold: {seconds: 60}\n  - land"))
-    link = free_port()
-    service = Running(tmp_path, f"master: udpin:127.0.0.1:{link}\nmission: hop.yaml\nautostart: true")
+def test_two_services_wait_for_their_vehicles_fly_tell_each_other_and_land_on_sigterm(tmp_path: Path) -> None:
+    masters, fleet = (free_port(), free_port()), (free_port(), free_port())
+    services = []
+    for k in range(2):
+        folder = tmp_path / str(k + 1)
+        folder.mkdir()
+        (folder / "hop.yaml").write_text(HOP.replace("  - land", "  - hold: {seconds: 60}\n  - land"))
+        others = f'listen: "udpin:127.0.0.1:{fleet[k]}", others: ["udpout:127.0.0.1:{fleet[1 - k]}"]'
+        text = f"master: udpin:127.0.0.1:{masters[k]}\nmission: hop.yaml\nautostart: true\n"
+        services.append(Running(folder, f"{text}fleet: {{number: {k + 1}, {others}}}"))
+    first, second = services
     try:
-        service.wait(lambda: service.get("/health") == (503, {"ok": False, "reason": "the vehicle is not heard"}))
-        assert service.get("/state.json")[1]["state"] == "idle"
-        with VehicleProcess("--connect", f"udpout:127.0.0.1:{link}"):
-            service.wait(lambda: service.get("/health")[0] == 200)
-            service.wait(lambda: (service.get("/state.json")[1].get("flight") or {}).get("phase") == "flying")
-            service.process.send_signal(signal.SIGTERM)
-            assert service.process.wait(40) == 0, service.log.read_text()
+        first.wait(lambda: first.get("/health") == (503, {"ok": False, "reason": "the vehicle is not heard"}))
+        assert first.get("/state.json")[1]["state"] == "idle"
+        with (
+            VehicleProcess("--connect", f"udpout:127.0.0.1:{masters[0]}"),
+            VehicleProcess("--connect", f"udpout:127.0.0.1:{masters[1]}"),
+        ):
+            first.wait(lambda: first.get("/health")[0] == 200)
+            first.wait(lambda: (first.get("/state.json")[1].get("flight") or {}).get("phase") == "flying")
+            first.wait(lambda: "vehicle 2 is heard" in first.said)
+            second.wait(lambda: "vehicle 1" in (second.get("/state.json")[1].get("fleet") or {}))
+            for service in services:
+                service.process.send_signal(signal.SIGTERM)
+            assert [service.process.wait(60) for service in services] == [0, 0]
     finally:
-        service.process.kill()
-        service.process.wait(10)
-    assert "landing -> done (disarmed)" in service.said
-    assert service.said[-1] == "stopped"
-    (recording,) = (tmp_path / "recordings").iterdir()
-    done = subprocess.run(
-        [sys.executable, "-m", "companion", "rerun", str(recording)], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+        for service in services:
+            service.process.kill()
+            service.process.wait(10)
+    assert "landing -> done (disarmed)" in first.said
+    assert first.said[-1] == "stopped"
+    (recording,) = (tmp_path / "1" / "recordings").iterdir()
+    again = rerun(Recording(recording))
+    assert again.comparison.first is None, again.comparison

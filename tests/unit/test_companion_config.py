@@ -10,6 +10,7 @@ from companion.errors import ConfigError
 FULL = """\
 master: udpin:0.0.0.0:14540
 out: [udpin:127.0.0.1:14550, "udpout:10.0.0.2:14550"]
+sensors: [udpin:127.0.0.1:14600]
 mission: hop.yaml
 autostart: true
 record: /var/lib/companion
@@ -41,6 +42,7 @@ def test_a_file_says_everything_and_its_paths_are_relative_to_it(tmp_path: Path)
     assert (config.system_id, config.seed, config.log, config.record_max_mb) == (3, 7, "text", 500)
     assert config.fleet is not None
     assert config.fleet.number == 2
+    assert [*config.sensor_endpoints(), *config.fleet_endpoints()] == ["sensor0", "fleet", "fleet0"]
 
 
 def test_the_environment_alone_is_enough() -> None:

@@ -3,6 +3,7 @@
 import math
 
 from companion.core import Companion, CompanionConfig
+from companion.hooks import NothingSeen
 from companion.missionfile import load_mission
 from companion.seam import Note
 from companion.vehiclelink import VEHICLE_LINK
@@ -82,3 +83,25 @@ def test_time_that_stands_still_sends_one_heartbeat_a_second_and_no_burst_after_
         beats.append(sum(isinstance(o, Datagram) and o.data[7:10] == b"\0\0\0" for o in outputs))
     assert beats == [1, 0, 1, 1, 0, 1]
     assert math.isclose(companion.origin_n.sum(), 0.0)
+
+
+class Seen(NothingSeen):
+    """Keeps what it is handed."""
+
+    def __init__(self):
+        self.kinds = []
+
+    def take(self, now_us, packet, pose):
+        self.kinds.append((packet.system_id, packet.component_id, packet.message_id))
+        return False
+
+
+def test_a_sensor_of_our_system_on_a_link_of_its_own_is_seen_and_told_to_nobody():
+    companion = Companion(MISSION, CompanionConfig(sensor_links=("sensor0",), ground_links=("out0",)))
+    companion.seeing = seen = Seen()
+    companion.step(0, [said(heartbeat(), HERE)])
+    scan = mavlink.MAVLink_distance_sensor_message(5, 20, 1000, 250, 0, 0, 0, 255)
+    told = [Datagram("sensor0", said(scan, ELSEWHERE, system=k, component=196).data, ELSEWHERE) for k in (1, 2)]
+    out = companion.step(20_000, told)
+    assert seen.kinds == [(1, 1, 0), (1, 196, 132)]
+    assert not [o for o in out if isinstance(o, Datagram) and told[0].data in o.data]

@@ -248,6 +248,17 @@ def test_the_missions_of_a_folder_come_once_each_by_name_and_a_file_again_and_ag
     assert "found 'no mission', expected a mapping" in broken.why_not
 
 
+def test_of_a_file_with_several_vehicles_the_part_of_our_number_is_flown(tmp_path: Path) -> None:
+    file = Path("missions/swap.yaml")
+    missions = Missions(file=file, number=2)
+    missions.look()
+    assert missions.ready is not None
+    assert missions.ready.mission.start_m() == (0, 6, 0)
+    alone = Missions(file=file)
+    alone.look()
+    assert "expected fleet.number to say which is ours" in alone.why_not
+
+
 def test_an_uploaded_plan_is_flown_before_the_files_until_it_is_cleared() -> None:
     missions = Missions(file=Path("missions/l_shape.yaml"))
     missions.look()
