@@ -37,6 +37,7 @@ from companion.lookout import Lookout
 from companion.mission import Mission
 from companion.offboard import flaw, setpoint_message
 from companion.phases import AIRBORNE, OVER, STREAMING, Event, Phase, after
+from companion.preparation import Preparation
 from companion.rejoin import Rejoin
 from companion.replanning import Replanning as Replanned
 from companion.safety import Action, Safety, Watch
@@ -44,7 +45,7 @@ from companion.seam import Input, Level, Note, Order, Output, PlanReady, Referen
 from companion.seeing.sight import Sight
 from companion.telemetry import Telemetry
 from companion.vehicleclock import VehicleClock
-from companion.vehiclelink import AUTOPILOT_COMPONENT, COMPONENT_ID, VEHICLE_LINK, VehicleLink
+from companion.vehiclelink import COMPONENT_ID, VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 from wire.framing import Framer
@@ -56,9 +57,6 @@ BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGI
 START_SLACK = 3.0
 """How far from where its file says a vehicle may stand, where the mission's place on the earth is known [m]."""
 MOVING = AIRBORNE - {Phase.LANDING}
-PARAMETER_WAIT_US, PARAMETER_REPEAT_US = 2_000_000, 500_000
-STREAMS_AGAIN_US = 5_000_000
-"""Without a position for so long while it is being prepared, the vehicle is asked for its streams again."""
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
 CONFIRM_US = 2_000_000
@@ -139,13 +137,10 @@ class Companion:
         self._entered_us = 0
         self._streaming_us = 0
         self._heartbeat_due_us = 0
-        self._parameters_due_us = 0
-        self._streams_due_us = 0
-        self._parameters_judged = False
         self._boots = 1
         self._tries = 0
         self._command: Command | ParameterWrite | None = None
-        self._queue: list[Command | ParameterWrite] = []
+        self._preparation: Preparation | None = None  # of the vehicle that was heard last
         self._land_asked = False
         self._given_back = False
         self._plan_refusal = ""
@@ -155,7 +150,6 @@ class Companion:
         self._fastest = max(mission.limits.speed, mission.limits.climb, *(step.speed or 0.0 for step in mission.steps))
         self._holding = ""
         self._crossing = ""
-        self._readiness: tuple[str, ...] = ()
         self._warned: tuple[int, str] | None = None  # when, what: the vehicle's last warning
         self._reference: Reference | None = None  # of the tick before
 
@@ -433,36 +427,22 @@ class Companion:
         return None
 
     def _preparing(self, now_us: int, out: list[Output]) -> Event | None:
-        waited_us = now_us - self._entered_us
-        command = self._command
-        if command is not None and command.outcome is not Outcome.PENDING:
-            if command.outcome is not Outcome.ACCEPTED:
-                out.append(Note(Level.WARNING, command.failure()))
-            elif isinstance(command, ParameterWrite):
-                out.append(Note(Level.INFO, f"{command.name} set to {command.shown}"))
+        preparation, waited_us = self._preparation, now_us - self._entered_us
+        assert preparation is not None
+        if self._command is not None and self._command.outcome is not Outcome.PENDING:
+            told = preparation.over(self._command)
+            out.extend([] if told is None else [told])
             self._command = None
-        unread = any(not raw for raw in self.telemetry.parameters.values()) and waited_us < PARAMETER_WAIT_US
-        if unread and now_us >= self._parameters_due_us:
-            self._read_parameters(now_us, out)
-        if not unread and not self._parameters_judged:
-            self._parameters_judged = True
-            for wish in self.autopilot.parameters_to_set(self.telemetry):
-                self._queue.append(ParameterWrite(wish.name, wish.value, wish.kind, wish.shown))
-        reasons = tuple(self.autopilot.not_ready(now_us, self.telemetry))
-        if self.mission.origin is not None and self.telemetry.global_e7 is None:
-            reasons = (*reasons, "no global position")
-        if reasons != self._readiness:
-            self._readiness = reasons
-            out.append(Note(Level.INFO, "vehicle ready" if not reasons else f"waiting: {', '.join(reasons)}"))
+        nowhere = self.mission.origin is not None and self.telemetry.global_e7 is None
+        told = preparation.look(now_us, ("no global position",) if nowhere else ())
+        out.extend([] if told is None else [told])
+        out.extend(self.link.pack(message) for message in preparation.reads(now_us, self.link.target))
         paced = self.clock.known or waited_us > PACE_WAIT_US
-        if not reasons and not self._queue and self._command is None and not unread and paced:
+        if preparation.done(now_us) and self._command is None and paced:
             return Event.READY
         if waited_us > self.config.wait_ready_s * 1e6:
-            return self._refused(f"the vehicle is not ready after {waited_us / 1e6:.0f} s: {', '.join(reasons)}")
-        if now_us >= self._streams_due_us and not self._queue and self._command is None:
-            self._streams_due_us = now_us + STREAMS_AGAIN_US
-            if now_us - (self.telemetry.position_us or 0) > STREAMS_AGAIN_US:
-                self._queue.extend(self.autopilot.stream_requests())
+            reasons = ", ".join(preparation.reasons)
+            return self._refused(f"the vehicle is not ready after {waited_us / 1e6:.0f} s: {reasons}")
         return None
 
     def _planning(self, now_us: int, out: list[Output]) -> Event | None:
@@ -625,17 +605,13 @@ class Companion:
                 self.telemetry.forget()
                 self.telemetry.heartbeat_us = None
                 self.clock.forget()
-                self._readiness = ()
             case Phase.PREPARING:
                 self._boots = self.telemetry.boots
-                self._queue = list(self.autopilot.stream_requests())
-                self._queue += stream_requests(self.seeing.streams_hz())
+                streams = self.autopilot.stream_requests() + stream_requests(self.seeing.streams_hz())
                 if self.mission.origin is not None or self.config.ground_links:
-                    self._queue += stream_requests({mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0})
-                self._streams_due_us = now_us + STREAMS_AGAIN_US
-                self._parameters_judged = False
-                self.telemetry.parameters = {name: b"" for name in self.autopilot.parameters_wanted()}
-                self._read_parameters(now_us, out)
+                    streams += stream_requests({mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0})
+                self._preparation = Preparation(self.autopilot, self.telemetry, now_us, [*streams])
+                out.extend(self.link.pack(m) for m in self._preparation.reads(now_us, self.link.target))
             case Phase.PLANNING:
                 misplaced = self._fix_frame()
                 self.itinerary.yaw = self.telemetry.yaw
@@ -689,23 +665,13 @@ class Companion:
 
     def _work(self, now_us: int, out: list[Output]) -> None:
         """Keep the command under way going; in PREPARING the next of the queue, in ENGAGING the mode."""
-        if self.phase is Phase.PREPARING and self._command is None and self._queue:
-            self._command = self._queue.pop(0)
+        if self.phase is Phase.PREPARING and self._command is None and self._preparation is not None:
+            self._command = self._preparation.next()
         streamed = now_us - self._streaming_us >= STREAM_BEFORE_ASKING_US or not self.autopilot.streams_on_ground
         if self.phase is Phase.ENGAGING and self._command is None and streamed:
             self._command = self.autopilot.take_control()
         if self._command is not None and self._command.due(now_us):
             out.append(self.link.pack(self._command.message(self.link.target)))
-
-    def _read_parameters(self, now_us: int, out: list[Output]) -> None:
-        self._parameters_due_us = now_us + PARAMETER_REPEAT_US
-        for name, raw in self.telemetry.parameters.items():
-            if raw:
-                continue
-            request = mavlink.MAVLink_param_request_read_message(
-                self.link.target, AUTOPILOT_COMPONENT, name.encode(), -1
-            )
-            out.append(self.link.pack(request))
 
     # ---- 5. streams ---------------------------------------------------------------------------------------------
 

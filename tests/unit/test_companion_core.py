@@ -105,3 +105,21 @@ def test_a_sensor_of_our_system_on_a_link_of_its_own_is_seen_and_told_to_nobody(
     out = companion.step(20_000, told)
     assert seen.kinds == [(1, 1, 0), (1, 196, 132)]
     assert not [o for o in out if isinstance(o, Datagram) and told[0].data in o.data]
+
+
+def test_a_vehicle_that_calls_from_another_port_is_known_again_once_the_old_one_was_silent():
+    companion = Companion(MISSION, CompanionConfig())
+    companion.step(0, [said(heartbeat(), HERE)])
+    companion.step(2_000_000, [said(heartbeat(), ELSEWHERE)])
+    assert companion.link.peer == HERE
+    companion.step(3_100_000, [said(heartbeat(), ELSEWHERE), said(position(4.0), ELSEWHERE)])
+    assert companion.link.peer == ELSEWHERE
+    assert companion.telemetry.position_n[0] == 4.0
+
+
+def test_another_system_does_not_take_the_place_of_one_that_fell_silent():
+    companion = Companion(MISSION, CompanionConfig())
+    companion.step(0, [said(heartbeat(), HERE)])
+    companion.step(5_000_000, [said(heartbeat(), ELSEWHERE, system=2)])
+    assert companion.link.system_id == 1
+    assert companion.link.peer == HERE

@@ -95,3 +95,57 @@ def test_what_keeps_a_px4_from_flying_is_told_in_words_that_do_not_change_with_e
         seen.add(tuple(Px4().not_ready(1_000, telemetry)))
     (reasons,) = seen
     assert {"armed already", "not on the ground", "estimator rejects horizontal position"} <= set(reasons)
+
+
+def heard_position(telemetry, boot_ms, x):
+    take(telemetry, mavlink.MAVLink_local_position_ned_message(boot_ms, x, 0, 0, 0, 0, 0))
+
+
+def test_a_position_that_comes_late_or_twice_is_not_taken():
+    telemetry = Telemetry()
+    for boot_ms, x in ((1000, 1.0), (1040, 2.0), (1020, 9.0), (1040, 9.0), (1060, 3.0), (800, 9.0)):
+        heard_position(telemetry, boot_ms, x)
+    assert telemetry.position_n[0] == 3.0
+    assert telemetry.boots == 1
+
+
+def test_a_time_since_boot_that_goes_back_three_times_in_a_row_is_another_boot_and_nothing_before_it_counts():
+    telemetry = Telemetry()
+    heard_position(telemetry, 60_000, 1.0)
+    take(telemetry, mavlink.MAVLink_extended_sys_state_message(0, mavlink.MAV_LANDED_STATE_IN_AIR))
+    heard_position(telemetry, 500, 2.0)  # one may have been on its way for long
+    heard_position(telemetry, 60_020, 1.0)
+    assert telemetry.boots == 1
+    for boot_ms in (500, 520, 540, 560):
+        heard_position(telemetry, boot_ms, 2.0)
+    assert telemetry.boots == 2
+    assert telemetry.position_n[0] == 2.0
+    assert telemetry.landed_state == 0
+
+
+def test_the_count_since_boot_may_wrap():
+    telemetry = Telemetry()
+    heard_position(telemetry, 2**32 - 10, 1.0)
+    heard_position(telemetry, 10, 2.0)
+    assert telemetry.position_n[0] == 2.0
+    assert telemetry.boots == 1
+
+
+def test_a_mode_is_sure_when_nothing_else_was_said_for_a_while():
+    telemetry = Telemetry()
+
+    def beat(now_us, mode, base=1):
+        m = mavlink.MAVLink_heartbeat_message(2, 12, base, mode, 4, 3)
+        telemetry.take(now_us, packet(m)[0], MAV)
+
+    beat(0, 5)
+    assert telemetry.mode_is_sure
+    beat(1_000_000, 6)  # a second after the other: not an old one
+    assert telemetry.mode_is_sure
+    beat(1_200_000, 5)  # perhaps an old one
+    assert not telemetry.mode_is_sure
+    beat(2_000_000, 6, base=129)
+    assert telemetry.mode_is_sure
+    assert telemetry.arming_is_sure
+    beat(2_100_000, 6, base=1)
+    assert not telemetry.arming_is_sure
