@@ -63,6 +63,12 @@ def test_the_mission_completes(link: LinkFaults, autopilot: str) -> None:
     assert not result.failure
 
 
+def test_a_takeoff_whose_answer_was_lost_is_not_called_off_when_its_repeat_is_refused_in_the_air() -> None:
+    result = fly(FlightSpec(HOP.parent / "l_shape.yaml", autopilot="ardupilot", seed=9, link=LinkFaults(0.3, seed=9)))
+    assert result.phase == "done", result.story
+    assert not result.failure
+
+
 def test_a_blackout_of_five_seconds_in_the_air_is_survived_and_the_mission_goes_on() -> None:
     result = fly(FlightSpec(HOP, link=LinkFaults(blackouts=((9.5, 14.5),))))
     assert result.phase == "done", result.story
