@@ -32,7 +32,8 @@ STRIDE = 2.0
 """The window is moved when the vehicle is so far from its middle [m]."""
 KEPT = 3.0
 """Cells this near to the path flown are never forgotten [m]."""
-MOST_PLACES = 2_000
+LATER_US = 30_000_000
+MOST_PLACES = 500
 """Of the path flown, a metre apart each."""
 SWEEP_US = 1_000_000
 EMPTY = -(1 << 40)
@@ -190,7 +191,8 @@ class RollingMap:
         if self._path:
             path = np.array(self._path)[:, :2]
             middle = (np.column_stack(self._cells(a, b)) + 0.5) * self.resolution
-            far = ((middle[:, None] - path[None]) ** 2).sum(axis=2).min(axis=1) > KEPT**2
+            far = np.array([((place - path) ** 2).sum(axis=1).min() > KEPT**2 for place in middle])
+            self._stamp[a[~far], b[~far]] = now_us - self._decay_us + LATER_US  # asked again then, not every second
             a, b = a[far], b[far]
         self.low[a, b] = self.high[a, b] = 0
         self.version += len(a) > 0

@@ -12,7 +12,7 @@ from companion.seeing.sensing import POINT, RANGE, RING, Scan, rotation, scan_of
 from companion.seeing.sight import Sight
 from companion.seeing.tracks import MOST_TRACKS, Tracks
 from wire.dialect import mavlink
-from wire.framing import Framer
+from wire.framing import Framer, Packet
 
 HERE = np.array([1.0, 2.0, -1.5])
 
@@ -290,6 +290,17 @@ def test_an_estimator_that_moves_its_origin_empties_the_map_and_is_told():
     made.take(0, position(120, 3.0, 0.0, -2.0), pose(3.0, 0.0, -2.0, (1.0, 0.0, 0.0)))
     assert made.jumped
     assert not cells(made.map)
+
+
+@pytest.mark.parametrize("kind", [RING, POINT, RANGE, 246, 33])
+def test_no_payload_makes_the_sight_raise_or_place_anything_outside_its_window(kind):
+    made, rng = sight(), np.random.default_rng(kind)
+    flying(made, 0.1, 1.0)
+    for length in [*range(0, 255, 3)] * 3:
+        raw = bytes(rng.integers(0, 256, length, dtype=np.uint8))
+        made.take(0, Packet(2, 0, 1, 1, kind, raw, raw), pose(0.1, 0.0, -2.0))
+    assert len(made.map.view().runs) < 72 * 255
+    assert len(made.tracks) <= MOST_TRACKS
 
 
 def test_nothing_counts_before_the_mission_frame_is_known():
