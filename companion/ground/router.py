@@ -1,6 +1,6 @@
 """Who gets which packet: a small router between the vehicle and its ground stations.
 
-It learns where each (system, component) speaks from, and follows MAVLink's rules for routing
+It learns where each (system, component) speaks from, be it several places at once, and follows MAVLink's rules
 (https://mavlink.io/en/guide/routing.html):
 
     no target, or everybody     to every link but the one it came from
@@ -10,7 +10,7 @@ It learns where each (system, component) speaks from, and follows MAVLink's rule
 and four of our own:
 
     ours                        what is addressed to the companion is not for the vehicle, whose autopilot may answer
-                                commands to any component of its system
+                                commands to any component of its system; nor is it while that system is not known
     loops                       a packet that comes by a second way within `TWICE_US` has gone round: dropped; so is one
                                 that claims to be of the companion, or, from a ground station's link, of the vehicle
     damage                      what is no whole packet with a good checksum goes nowhere
@@ -67,12 +67,6 @@ def target_of(packet: Packet) -> tuple[int, int]:
 
 
 @dataclass(slots=True)
-class _Route:
-    place: Place
-    heard_us: int
-
-
-@dataclass(slots=True)
 class RouterCounters:
     """Packets: routed, for us alone, gone round in a loop, over the rate; and datagrams with damage in them."""
 
@@ -99,7 +93,7 @@ class Router:
         self.counters = RouterCounters()
         self._links = (VEHICLE_LINK, *ground_links)
         self._framer = Framer()
-        self._routes: dict[tuple[int, int], _Route] = {}
+        self._routes: dict[tuple[int, int, Place], int] = {}  # who speaks from where -> when last
         self._seen: OrderedDict[int, tuple[int, Place]] = OrderedDict()  # checksum -> when and whence it came first
         self._allowed: dict[str, tuple[float, int]] = {link: (BURST, 0) for link in ground_links}
 
@@ -136,7 +130,7 @@ class Router:
             self.counters.loops += 1
             return []
         target = target_of(packet)
-        if system_id is not None and target == (system_id, COMPONENT_ID):
+        if target[1] == COMPONENT_ID and (system_id is None or target[0] in (0, system_id)):
             self.counters.ours += 1
             return []
         places = self._toward(now_us, target, came)
@@ -147,27 +141,25 @@ class Router:
         system, component = target
         if system:
             known = [
-                route.place
-                for (sys, comp), route in self._routes.items()
-                if sys == system and component in (0, comp) and now_us - route.heard_us <= SILENT_US
+                place
+                for (sys, comp, place), heard_us in self._routes.items()
+                if sys == system and component in (0, comp) and now_us - heard_us <= SILENT_US
             ]
             if known:
-                return [place for place in dict.fromkeys(known) if place != came]
+                return [place for place in dict.fromkeys(known) if place not in (came, (came[0], None))]
         return [(link, None) for link in self._links if link != came[0]]
 
     def _learn(self, now_us: int, sender: tuple[int, int], came: Place) -> bool:
         """Remember where a sender speaks from; False when it is the vehicle's and speaks from elsewhere."""
-        route = self._routes.get(sender)
-        place: Place = (VEHICLE_LINK, None) if came[0] == VEHICLE_LINK else came
-        if route is not None:
-            fresh = now_us - route.heard_us <= SILENT_US
-            if fresh and route.place[0] == VEHICLE_LINK != place[0]:
-                return False
-            route.place, route.heard_us = place, now_us
-            return True
-        if len(self._routes) >= MOST_ROUTES:
-            del self._routes[min(self._routes, key=lambda s: (self._routes[s].heard_us, s))]
-        self._routes[sender] = _Route(place, now_us)
+        vehicles: Place = (VEHICLE_LINK, None)
+        place = vehicles if came[0] == VEHICLE_LINK else came
+        heard_us = self._routes.get((*sender, vehicles))
+        if place != vehicles and heard_us is not None and now_us - heard_us <= SILENT_US:
+            return False
+        key = (*sender, place)
+        if key not in self._routes and len(self._routes) >= MOST_ROUTES:
+            del self._routes[min(self._routes, key=self._routes.__getitem__)]
+        self._routes[key] = now_us
         return True
 
     def _went_round(self, now_us: int, packet: Packet, came: Place) -> bool:

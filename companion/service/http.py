@@ -5,6 +5,7 @@ here that would change a flight.
 """
 
 import json
+import socket
 import threading
 import time
 from collections.abc import Iterator, Mapping
@@ -53,7 +54,8 @@ def served(place: tuple[str, int], board: Board) -> Iterator[tuple[str, int]]:
     ------
     LinkError : the port is taken.
     """
-    server_class = type("Server", (_Server,), {"board": board})
+    family = socket.AF_INET6 if ":" in place[0] else socket.AF_INET
+    server_class = type("Server", (_Server,), {"board": board, "address_family": family})
     try:
         server = server_class(place, _Handler)
     except OSError as error:

@@ -50,7 +50,11 @@ class Missions:
         if self._uploaded is not None:
             self.ready, self.why_not = self._uploaded, ""
             return
-        path = self._file if self._folder is None else self._next()
+        try:
+            path = self._file if self._folder is None else self._next()
+        except OSError as error:
+            self.ready, self.why_not = None, f"{self._folder}: cannot be read: {error.strerror or error}"
+            return
         if path is None:
             self.ready, self.why_not = None, "there is no mission" if self._folder is None else "no mission is left"
             return
@@ -88,10 +92,7 @@ class Missions:
 
     def _next(self) -> Path | None:
         assert self._folder is not None
-        try:
-            found = sorted(p for p in self._folder.iterdir() if p.suffix in ENDINGS and p.is_file())[:MOST_FILES]
-        except OSError as error:
-            raise CompanionError(f"{self._folder}: cannot be read: {error.strerror or error}") from error
+        found = sorted(p for p in self._folder.iterdir() if p.suffix in ENDINGS and p.is_file())[:MOST_FILES]
         return next((path for path in found if str(path) not in self._flown), None)
 
 

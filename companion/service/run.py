@@ -26,6 +26,7 @@ from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import Pace, fly_realtime
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap, Tick
+from companion.errors import CompanionError
 from companion.geodesy import Geodetic
 from companion.ground.station import GroundStation, plan_file
 from companion.phases import AIRBORNE
@@ -35,10 +36,10 @@ from companion.service.http import Board, served
 from companion.service.idle import Idle
 from companion.service.jsonlog import LEVELS, Log, LogTap
 from companion.service.queue import Missions, Ready, make_room, recording_file
-from companion.service.snapshot import fleet_state, flight_state, idle_state, vehicle_state, verdict_state
+from companion.service.snapshot import VERDICT_KEYS, fleet_state, flight_state, idle_state, vehicle_state, verdict_state
 from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
-from logs.errors import RecordingError
+from logs.errors import LogsError, RecordingError
 from logs.recorder import Recorder
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
@@ -118,7 +119,6 @@ class Service:
         Raises
         ------
         LinkError : a port is taken.
-        CompanionError : a folder cannot be read or made.
         """
         page = self._config.page()
         with ExitStack() as stack:
@@ -133,7 +133,12 @@ class Service:
                 ready = self._wait()
                 if ready is None:
                     break
-                code = self._fly(ready)
+                try:
+                    code = self._fly(ready)
+                except (CompanionError, LogsError) as error:  # before it began: no room for a recording, say
+                    self._say(Level.ERROR, f"{ready.mission.name}: not flown: {error}")
+                    self._last_flight = {**dict.fromkeys(VERDICT_KEYS), "mission": ready.mission.name, "ok": False}
+                    self._last_flight["failure"] = str(error)
             self._say(Level.INFO, "stopped" if not code else "stopped in flight without landing")
         return code
 

@@ -17,6 +17,11 @@ from companion.vehiclelink import VehicleLink
 from companion.verdict import FlightMeter, Verdict
 
 HEARD_US = 3_000_000
+VERDICT_KEYS = (
+    *("mission", "ok", "phase", "failure", "seconds", "tracking_error_p95_m"),
+    *("min_clearance_m", "setpoint_gap_max_ms", "recording"),
+)
+"""Of `verdict_state`."""
 
 
 def vehicle_state(now_us: int, link: VehicleLink, telemetry: Telemetry) -> dict[str, Any]:

@@ -64,11 +64,12 @@ def test_what_is_for_the_companion_never_reaches_the_vehicle() -> None:
     net = Net()
     for number in (20, 21, 176, 192, 193, 300, 400, 512):
         assert net.say("out0", command(1, 191, number)) == {}
+        assert net.say("out0", command(0, 191, number)) == {}
     count = mavlink.MAVLink_mission_count_message(1, 191, 3)
     assert net.say("out0", packet(255, 190, count)) == {}
     mixed = command(1, 191) + command(1, 1)
     assert net.say("out0", mixed)[VEHICLE_LINK] == command(1, 1)
-    assert net.router.counters.ours == 10
+    assert net.router.counters.ours == 18
 
 
 def test_an_answer_goes_only_to_who_asked_even_among_several_on_one_link() -> None:
@@ -121,12 +122,24 @@ def test_a_flooding_ground_station_is_cut_to_its_rate_and_the_others_are_not() -
     assert VEHICLE_LINK in net.say("out1", beat(251, 190))
 
 
-def test_a_station_that_moves_to_another_link_is_answered_there() -> None:
+def test_two_stations_of_one_name_are_both_answered() -> None:
     net = Net()
-    net.say("out0", beat(250, 190))
-    net.say("out1", beat(250, 190, 1))
-    answer = packet(1, 1, mavlink.MAVLink_command_ack_message(400, 0, 0, 0, 250, 190))
-    assert set(net.say(VEHICLE_LINK, answer)) == {"out1"}
+    net.say("out0", beat(255, 190))
+    net.say("out1", beat(255, 190, 100))
+    answer = packet(1, 1, mavlink.MAVLink_command_ack_message(400, 0, 0, 0, 255, 190))
+    assert set(net.say(VEHICLE_LINK, answer)) == {"out0", "out1"}
+    net.now_us += 59_900_000
+    net.say("out1", beat(255, 190, 101))
+    net.now_us += 200_000
+    later = packet(1, 1, mavlink.MAVLink_command_ack_message(400, 0, 0, 0, 255, 190), 1)
+    assert set(net.say(VEHICLE_LINK, later)) == {"out1"}
+
+
+def test_while_the_vehicle_is_not_known_nothing_for_a_companion_is_sent_to_where_it_is_called() -> None:
+    router = Router(tuple(STATIONS))
+    assert router.route(0, Datagram("out0", command(1, 191, 300), A), None, None) == []
+    other = router.route(1, Datagram("out0", command(2, 191, 300), A), 1, VEHICLE)
+    assert {d.link for d in other} == {VEHICLE_LINK, "out1", "out2"}
 
 
 def test_what_is_kept_is_bounded_whatever_is_sent() -> None:

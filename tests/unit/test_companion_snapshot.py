@@ -276,6 +276,16 @@ def test_an_uploaded_plan_is_flown_before_the_files_until_it_is_cleared() -> Non
     assert missions.why_not.startswith("uploaded.plan: ")
 
 
+def test_a_folder_that_cannot_be_read_is_told_and_looked_at_again(tmp_path: Path) -> None:
+    missions = Missions(folder=tmp_path / "later")
+    missions.look()
+    assert missions.why_not.endswith("cannot be read: No such file or directory")
+    (tmp_path / "later").mkdir()
+    (tmp_path / "later" / "a.yaml").write_text(Path("missions/l_shape.yaml").read_text())
+    missions.look()
+    assert missions.ready is not None
+
+
 def test_the_oldest_of_our_recordings_make_room_and_other_files_stay(tmp_path: Path) -> None:
     files = [recording_file(tmp_path, MISSION) for _ in range(3)]
     for age, file in enumerate(files):
