@@ -116,7 +116,13 @@ class Flight:
         orders : asked once a tick for what a person orders.
         until : asked once a tick; True ends the flight as it is.
         taps : look on.
+
+        Raises
+        ------
+        ValueError : it was flown before.
         """
+        if self.result is not None:
+            raise ValueError("this flight was flown before: make another")
         spec, companion = self.spec, self.companion
         meter, story, innovations = FlightMeter(companion), Story(companion), Innovations()
         around = surroundings(companion, self.vehicle)

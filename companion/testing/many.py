@@ -48,6 +48,7 @@ def fly_many(
     autopilot: Autopilot = "px4",
     *,
     share: bool = True,
+    loss: float = 0.0,
     record: Path | None = None,
     limit_s: float = LIMIT_S,
     stop: Callable[[], bool] = lambda: False,
@@ -59,6 +60,7 @@ def fly_many(
     ----------
     seed : of the first vehicle; the others count up from it.
     share : tell each other; False: each flies as if it were alone.
+    loss : part of what they tell that does not arrive, 0 to 1.
     record : a folder for a recording of each.
     taps : more that look on at each.
     """
@@ -94,7 +96,9 @@ def fly_many(
                 a, b = np.unravel_index(int(apart.argmin()), apart.shape)
                 nearest = (aloft[int(a)] + 1, aloft[int(b)] + 1, now_us / 1e6)
 
-        end_us = fly_lockstep_many(pairs, limit_s=limit_s, look=look, stop=stop)
+        lost = np.random.default_rng(seed)
+        carried = lambda now_us, sender, hearer: loss == 0.0 or lost.random() >= loss  # noqa: E731
+        end_us = fly_lockstep_many(pairs, limit_s=limit_s, look=look, stop=stop, carried=carried)
     for companion in companions:
         if not companion.over and not stop():
             companion.failure = companion.failure or f"not over after {limit_s:g} s of simulated time"

@@ -35,6 +35,16 @@ def test_loss_and_duplicates_come_in_the_measure_asked_for() -> None:
     assert sum(c == 2 for c in numbers.values()) / len(numbers) == pytest.approx(0.2, abs=0.03)
 
 
+def test_what_became_of_each_direction_is_counted() -> None:
+    wire = FaultyWire(LinkFaults(loss=0.5, duplicate=0.5), "onboard")
+    arrived = sum(len(wire.to_vehicle(k * TICK_US, [Datagram("onboard", b"x")])) for k in range(100))
+    up, down = wire.counters
+    assert (up.sent, up.lost + arrived - up.repeated, up.invented) == (100, 100, 0)
+    assert 20 < up.lost < 80
+    assert up.repeated > 0
+    assert down.sent == 0
+
+
 def test_jitter_delays_up_to_its_length_and_reordering_lets_later_ones_overtake() -> None:
     late = [at - n * TICK_US for at, n, _ in carried(LinkFaults(jitter_ms=200)) if n is not None]
     assert 190_000 < max(late) <= 200_000 + TICK_US
