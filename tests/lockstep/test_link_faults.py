@@ -124,7 +124,7 @@ def test_everything_at_once_is_the_same_flight_each_time() -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 @given(
     faults=st.builds(
         LinkFaults,

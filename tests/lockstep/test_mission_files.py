@@ -19,9 +19,8 @@ def test_a_mission_file_holds_what_it_expects_with_the_other_autopilot(file: Pat
     assert result.ok, f"{result.cause}\n{result.story}"
 
 
-@pytest.mark.parametrize("name", ["popup_wall.yaml", "movers.yaml"])
-def test_what_appears_and_what_moves_is_not_touched(name: str) -> None:
-    result = fly(FlightSpec(MISSIONS[0].parent / name))
+def test_what_moves_is_not_touched() -> None:
+    result = fly(FlightSpec(MISSIONS[0].parent / "movers.yaml"))
     assert result.ok, f"{result.cause}\n{result.story}"
     assert result.verdict.min_clearance_m == result.min_clearance_m > 0.0
 
