@@ -35,11 +35,11 @@ def swap(seed: int, vehicles: int, radius: float) -> list[Part]:
     return split(yaml.safe_dump(document).encode(), "swap")
 
 
-def fly(case: tuple[int, int, float, bool]) -> tuple[int, ManyResult, float]:
+def fly(case: tuple[int, int, float, bool, float]) -> tuple[int, ManyResult, float]:
     """One seed, and the CPU time it took [s]."""
-    seed, vehicles, radius, share = case
+    seed, vehicles, radius, share, loss = case
     started = time.process_time()
-    result = fly_many(swap(seed, vehicles, radius), seed=100 * seed, share=share)
+    result = fly_many(swap(seed, vehicles, radius), seed=100 * seed, share=share, loss=loss)
     return seed, result, time.process_time() - started
 
 
@@ -50,9 +50,11 @@ def main() -> None:
     parser.add_argument("--vehicles", type=int, default=8)
     parser.add_argument("--radius", type=float, default=10.0)
     parser.add_argument("--alone", action="store_true", help="nobody is told of the others")
+    parser.add_argument("--loss", type=float, default=0.0, help="part of what they tell that does not arrive")
     parser.add_argument("-j", "--jobs", type=int, default=2)
     asked = parser.parse_args()
-    cases = [(seed, asked.vehicles, asked.radius, not asked.alone) for seed in range(1, asked.seeds + 1)]
+    setting = (asked.vehicles, asked.radius, not asked.alone, asked.loss)
+    cases = [(seed, *setting) for seed in range(1, asked.seeds + 1)]
     arrived, least = 0, math.inf
     with ProcessPoolExecutor(asked.jobs) as pool:
         for seed, result, cpu_s in pool.map(fly, cases):

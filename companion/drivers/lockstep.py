@@ -129,10 +129,12 @@ def fly_lockstep_many(
     limit_s: float,
     look: Callable[[int], None] = lambda now_us: None,
     stop: Callable[[], bool] = lambda: False,
+    carried: Callable[[int, int, int], bool] = lambda now_us, sender, hearer: True,
 ) -> int:
     """Fly several at once; what one says on the fleet's link all others hear a tick later.
 
-    Who is done stands where it is. `look` is called after every tick.
+    Who is done stands where it is. `look` is called after every tick; `carried` is asked whether what one says reaches
+    another (both as indices).
 
     Returns
     -------
@@ -147,8 +149,9 @@ def fly_lockstep_many(
                 continue
             for output in pair.tick(now_us, heard[i]):
                 if isinstance(output, Datagram) and output.link == FLEET_LINK:
+                    word = Datagram(FLEET_LINK, output.data, (f"vehicle {i}", 0))
                     for k, others in enumerate(told):
-                        others.extend([Datagram(FLEET_LINK, output.data, (f"vehicle {i}", 0))] if k != i else [])
+                        others.extend([word] if k != i and carried(now_us, i, k) else [])
         heard = told
         now_us += pairs[0].companion.TICK_US
         look(now_us)

@@ -1,5 +1,6 @@
 """Several vehicles: what they tell each other, whom each minds, and eight that swap places."""
 
+import json
 import math
 from pathlib import Path
 
@@ -8,8 +9,10 @@ import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
 from benchmarks.bench_fleet import swap
+from companion.cli.app import app
 from companion.drivers.rerun import rerun
 from companion.errors import MissionError
 from companion.fleet.exchange import LARGEST, Shared, pack, unpack
@@ -280,6 +283,20 @@ def test_two_that_swap_places_fly_round_each_other_and_alone_they_would_meet(tmp
     for file in sorted(tmp_path.iterdir()):
         again = rerun(Recording(file))
         assert again.comparison.first is None, again.comparison
+
+
+def test_a_mission_of_several_is_simulated_and_told_as_one_object(tmp_path: Path) -> None:
+    (tmp_path / "two.yaml").write_text(TWO)
+    done = CliRunner().invoke(app, ["simulate", str(tmp_path / "two.yaml"), "--json"])
+    told = json.loads(done.stdout)
+    assert (done.exit_code, told["ok"], [v["vehicle"] for v in told["vehicles"]]) == (0, True, ["a", "2"])
+    assert told["separation_m"] > 0.6
+
+
+def test_one_companion_does_not_fly_several_vehicles(tmp_path: Path) -> None:
+    (tmp_path / "two.yaml").write_text(TWO)
+    done = CliRunner().invoke(app, ["fly", str(tmp_path / "two.yaml"), "--master", "udpin:127.0.0.1:1"])
+    assert "vehicles: found several, expected one" in str(done.exception)
 
 
 @pytest.mark.slow
