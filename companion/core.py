@@ -238,7 +238,8 @@ class Companion:
                 for packet, obeyed in self.link.packets(now_us, item):
                     if obeyed:
                         self._hear(now_us, packet)
-                    self.seeing.take(now_us, packet, self.pose(self._flight_us))
+                    if type(self.seeing) is not NothingSeen:
+                        self.seeing.take(now_us, packet, self.pose(self._flight_us))
                 if self.link.impostor:
                     out.append(Note(Level.WARNING, self.link.impostor))
                     self.link.impostor = ""

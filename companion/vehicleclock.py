@@ -35,6 +35,7 @@ class VehicleClock:
 
     def __init__(self) -> None:
         self.rate = 1.0
+        self._slope: float | None = None  # as of the newest bucket
         self._best: deque[tuple[int, int]] = deque(maxlen=BUCKETS)  # (our time, time since boot less ours) [us]
         self._bucket: tuple[int, int] | None = None
         self._bucket_end_us = 0
@@ -45,13 +46,14 @@ class VehicleClock:
     @property
     def known(self) -> bool:
         """Whether the rate has been measured."""
-        return self._measured() is not None
+        return self._slope is not None
 
     def heard(self, now_us: int, boot_ms: int) -> None:
         """A time since boot that came just now; packets that came late or twice must not get here."""
         if now_us >= self._bucket_end_us:
             if self._bucket is not None and self._count >= FEWEST:
                 self._best.append(self._bucket)
+                self._slope = self._measured()
             self._bucket, self._count, self._bucket_end_us = None, 0, now_us + BUCKET_US
         offset = boot_ms * 1000 - now_us
         self._count += 1
@@ -61,6 +63,7 @@ class VehicleClock:
     def forget(self) -> None:
         """The vehicle booted again: its time before that says nothing any more. The rate stays."""
         self._best.clear()
+        self._slope = None
         self._bucket, self._count = None, 0
 
     def at(self, now_us: int, slowly: bool) -> int:
@@ -68,7 +71,7 @@ class VehicleClock:
         if self._now_us is None:
             self._now_us = self._flight_us = now_us
         gone_us = now_us - self._now_us
-        wanted = self._measured()
+        wanted = self._slope
         if wanted is not None and wanted != self.rate:
             most = SLEW * gone_us * 1e-6 if slowly else float("inf")
             self.rate += min(max(wanted - self.rate, -most), most)
