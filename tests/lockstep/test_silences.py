@@ -5,8 +5,10 @@ from pathlib import Path
 import pytest
 
 from companion.cli.vehicle import build_vehicle
+from companion.drivers.rerun import rerun
 from companion.missionfile import parse_mission
 from companion.phases import Phase
+from logs.reader import Recording
 from tests.conftest import HOP
 from wire.datagram import Datagram
 from wire.dialect import mavlink
@@ -152,3 +154,14 @@ def test_a_px4_that_would_not_hold_without_setpoints_is_told_to(fly):
     assert "COM_OBL_RC_ACT set to 5 (Hold)" in flight.notes
     assert flight.verdict.ok
     assert not [note for note in fly().notes if "COM_OBL_RC_ACT" in note]  # 5 already
+
+
+@pytest.mark.parametrize("autopilot", FLAVOURS)
+def test_a_flight_with_a_blackout_runs_again_from_its_recording_output_for_output(fly, autopilot, tmp_path):
+    start_s = ON_A_LEG_S[autopilot]
+    file = tmp_path / "flight.mcap"
+    flight = fly(autopilot=autopilot, record=file, between=lambda vehicle: Blackout(vehicle, start_s, start_s + 5.0))
+    again = rerun(Recording.open(file))
+    assert again.comparison.first is None
+    assert again.comparison.equal == again.comparison.outputs > 1000
+    assert again.companion.phase is flight.companion.phase is Phase.DONE
