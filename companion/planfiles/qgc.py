@@ -126,6 +126,9 @@ def _fence(found: Any) -> tuple[dict[str, Any] | None, list[str]]:
     include: list[dict[str, Any]] = []
     exclude: list[dict[str, Any]] = []
     problems: list[str] = []
+    for name in ("polygons", "circles"):
+        if not isinstance(found.get(name, []), list | None):
+            return None, [f"geoFence.{name}: expected a list"]
     for index, polygon in enumerate(found.get("polygons") or []):
         corners = polygon.get("polygon") if isinstance(polygon, dict) else None
         if not (isinstance(corners, list) and all(map(_is_pair, corners)) and 3 <= len(corners) <= 500):

@@ -2,6 +2,7 @@
 
 import json
 import math
+import random
 from contextlib import suppress
 
 import pytest
@@ -274,3 +275,34 @@ def test_a_file_is_known_by_its_content_not_by_its_name():
     assert not is_plan_file(b"{name: a mission in flow style}")
     assert read(b"\xef\xbb\xbf" + plan(*SURVEYED).encode(), "x").home == Geodetic(*HOME)
     assert yaml.safe_load(converted(WPL.encode(), "w.waypoints", ".yaml")[0])["name"] == "w"
+
+
+def test_a_plan_with_anything_anywhere_is_read_or_refused_line_by_line_and_nothing_else_happens():
+    dice = random.Random(1)
+    fence = {
+        "circles": [{"circle": {"center": HOME[:2], "radius": 200}, "inclusion": True}],
+        "polygons": [{"polygon": [[47.39, 8.5], [47.39, 8.51], [47.4, 8.5]], "inclusion": False}],
+    }
+    text = plan(*SURVEYED, fence=fence)
+    odd = [None, True, -1, math.inf, math.nan, "x", [], {}, [1, 2], 1e30, 0, 2**70, {"a": 1}, 178]
+    for _ in range(300):
+        document = json.loads(text)
+        places = [(o, k) for o in _inside(document) for k in (o if isinstance(o, dict) else range(len(o)))]
+        holder, key = dice.choice(places)
+        holder[key] = dice.choice(odd)
+        with suppress(MissionError):
+            parse_mission(json.dumps(document).encode(), "x.plan")
+    for _ in range(300):
+        letters = list(WPL)
+        for _ in range(3):
+            letters[dice.randrange(len(letters))] = dice.choice("0123456789.-\t\neExnaif#")
+        with suppress(MissionError):
+            parse_mission("".join(letters).encode(), "x.waypoints")
+
+
+def _inside(value):
+    """Every list and object of a document."""
+    if isinstance(value, dict | list):
+        yield value
+        for inner in value.values() if isinstance(value, dict) else value:
+            yield from _inside(inner)
