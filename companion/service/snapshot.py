@@ -10,7 +10,7 @@ import numpy as np
 
 from companion.autopilots import AUTOPILOTS
 from companion.core import Companion
-from companion.phases import AIRBORNE
+from companion.phases import AIRBORNE, Phase
 from companion.service.idle import Idle
 from companion.telemetry import Telemetry
 from companion.vehiclelink import VehicleLink
@@ -53,7 +53,7 @@ def flight_state(companion: Companion, meter: FlightMeter) -> dict[str, Any]:
     """Of the flight under way."""
     itinerary, phase = companion.itinerary, companion.phase
     here = companion.telemetry.position_n - companion.origin_n
-    flying = phase in AIRBORNE
+    flying = phase in AIRBORNE and phase is not Phase.LANDING
     return {
         "mission": companion.mission.name,
         "phase": phase.value,
@@ -64,7 +64,7 @@ def flight_state(companion: Companion, meter: FlightMeter) -> dict[str, Any]:
         "step_kind": itinerary.step.kind,
         "holding": itinerary.holding,
         "to_go_m": _finite(itinerary.remaining(here)) if flying else None,
-        "position_m": _rounded(here) if flying else None,
+        "position_m": _rounded(here) if phase in AIRBORNE else None,
         "tracking_error_m": _finite(meter.tracking_error_now) if flying else None,
         "setpoint_rate_hz": _finite(meter.setpoint_rate_now),
         "trouble": companion.replanning.trouble or None,

@@ -5,8 +5,15 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from companion.cli.vehicle import LINK, build_vehicle
+from companion.core import Companion, CompanionConfig
+from companion.drivers.lockstep import Pair
+from companion.drivers.planning import InlinePlanning
 from companion.ground.router import BURST, MOST_ROUTES, MOST_SEEN, Router, target_of
+from companion.missionfile import parse_mission
+from companion.phases import Phase
 from companion.vehiclelink import VEHICLE_LINK
+from tests.conftest import HOP
 from wire.datagram import Address, Datagram
 from wire.dialect import mavlink
 from wire.framing import Framer
@@ -175,6 +182,47 @@ def test_rubbish_goes_nowhere_and_never_raises(said: list[tuple[str, bytes]]) ->
         whole = sum(len(p.raw) for p in Framer().packets(data))
         out = net.say(link, data)
         assert all(len(d) <= whole for d in out.values())
+
+
+def test_a_flight_with_three_ground_stations_one_of_which_echoes_everything() -> None:
+    """What the vehicle and each station get in a whole flight: nothing twice, nothing that is for the companion."""
+    mission = parse_mission(HOP.encode(), "hop.yaml")
+    companion = Companion(mission, CompanionConfig(seed=1, ground_links=tuple(STATIONS)))
+    vehicle = build_vehicle(mission, 1)
+    pair = Pair(companion, vehicle, LINK, InlinePlanning(mission.planner_world()), [])
+    heard: dict[str, list[bytes]] = {link: [] for link in (VEHICLE_LINK, *STATIONS)}
+    said: list[Datagram] = []
+    now_us = 0
+    while not companion.over and now_us < 60_000_000:
+        outputs = [o for o in pair.tick(now_us, said) if isinstance(o, Datagram)]
+        now_us += companion.TICK_US
+        said = [Datagram("out2", o.data, C) for o in outputs if o.link == "out2"]  # a loop
+        for k, link in enumerate(("out0", "out1")):
+            if now_us % 1_000_000 == 0:
+                second = now_us // 1_000_000
+                said.append(Datagram(link, beat(250 + k, 190, second % 256), STATIONS[link]))
+                said.append(Datagram(link, command(1, 191, 512, second % 256, 250 + k), STATIONS[link]))
+                asked = mavlink.MAVLink_param_request_read_message(1, 1, b"MPC_XY_VEL_MAX", -1)
+                said.append(Datagram(link, packet(250 + k, 190, asked, (second + 1) % 256), STATIONS[link]))
+        for o in outputs:
+            heard[o.link].append(o.data)
+    assert companion.phase is Phase.DONE
+    packets = {link: [p for data in datas for p in Framer().packets(data)] for link, datas in heard.items()}
+    assert not [p for p in packets[VEHICLE_LINK] if target_of(p)[1] == 191]
+    seconds = now_us // 1_000_000
+    for k in (0, 1):
+        theirs = [p for p in packets[VEHICLE_LINK] if p.system_id == 250 + k]
+        assert len(theirs) == len({p.raw for p in theirs})
+        assert 2 * (seconds - 2) <= len(theirs) <= 2 * seconds
+        answers = [p for p in packets[f"out{k}"] if p.message_id == mavlink.MAVLINK_MSG_ID_PARAM_VALUE]
+        assert len(answers) >= seconds - 2
+    for link in STATIONS:
+        vehicles = [p.raw for p in packets[link] if (p.system_id, p.component_id) == (1, 1)]
+        before: dict[bytes, int] = {}
+        for at, raw in enumerate(vehicles):  # the same again only after its sequence has come round
+            assert at - before.get(raw, -1000) > 200
+            before[raw] = at
+    assert companion.router.counters.loops > 1000
 
 
 def test_without_ground_stations_there_is_nothing_to_do() -> None:
