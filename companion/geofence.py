@@ -67,8 +67,10 @@ class FenceModel(Model):
     def geofence(self) -> "Geofence":
         out = [a.outline() for a in self.exclude if a.corners is not None]
         circles = [(a.circle.north, a.circle.east, a.circle.radius) for a in self.exclude if a.circle is not None]
+        within = self.include[0].circle if self.include else None
         return Geofence(
             include=self.include[0].outline() if self.include else (),
+            within=None if within is None else (within.north, within.east, within.radius),
             exclude=tuple(out),
             circles=tuple(circles),
             ceiling=math.inf if self.ceiling is None else self.ceiling,
@@ -83,6 +85,7 @@ class Geofence:
     Attributes
     ----------
     include : corners (north, east) of the area to stay in [m]; empty: everywhere.
+    within : (north, east, radius) where that area is a circle, whose corners `include` has.
     exclude : corners of each area to stay out of.
     circles : (north, east, radius) likewise.
     ceiling : greatest altitude [m].
@@ -90,6 +93,7 @@ class Geofence:
     """
 
     include: Outline = ()
+    within: tuple[float, float, float] | None = None
     exclude: tuple[Outline, ...] = ()
     circles: tuple[tuple[float, float, float], ...] = ()
     ceiling: float = math.inf
@@ -99,7 +103,10 @@ class Geofence:
         """Distance [m] of a point (3,) (NED) to the fence: positive inside, negative beyond it."""
         north, east, altitude = float(position_m[0]), float(position_m[1]), -float(position_m[2])
         least = self.ceiling - altitude
-        if self.include:
+        if self.within is not None:
+            n, e, radius = self.within
+            least = min(least, radius - math.hypot(north - n, east - e))
+        elif self.include:
             least = min(least, -_to_outline(self.include, north, east))
         for outline in self.exclude:
             least = min(least, _to_outline(outline, north, east))
