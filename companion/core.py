@@ -147,6 +147,8 @@ class Companion:
         self._came_down = False
         self._going_home = False
         self._withheld = ""
+        takeoff = mission.steps[0].takeoff
+        self._climb_s = 0.0 if takeoff is None else 2.0 * takeoff.altitude / mission.limits.climb
         self._fastest = max(mission.limits.speed, mission.limits.climb, *(step.speed or 0.0 for step in mission.steps))
         self._holding = ""
         self._crossing = ""
@@ -387,6 +389,7 @@ class Companion:
             fence_m=fence_m,
             phase=self.phase,
             phase_s=(now_us - self._entered_us) / 1e6,
+            takeoff_s=self._climb_s,
             silent_s=(now_us - (self.link.heard_us or 0)) / 1e6,
             position_s=(now_us - (t.position_us or 0)) / 1e6,
             tick_gap_s=(now_us - (self._last_us or now_us)) / 1e6,

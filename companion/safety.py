@@ -22,6 +22,7 @@ STALLED_S = 0.5
 BATTERY_LOW, BATTERY_CRITICAL = 0.15, 0.07
 TROUBLE_S = 30.0
 TAKEOFF_S = 30.0
+"""More than the climb takes."""
 REJOIN_S = 30.0
 
 
@@ -43,6 +44,7 @@ class Watch:
 
     phase: Phase
     phase_s: float = 0.0  # since it was entered
+    takeoff_s: float = 0.0  # what the climb may take
     silent_s: float = 0.0  # since anything was heard of the vehicle
     position_s: float = 0.0  # since its last position
     tick_gap_s: float = 0.02  # since our own tick before
@@ -136,7 +138,8 @@ def _stranded(w: Watch) -> str:
 
 
 def _takeoff_late(w: Watch) -> str:
-    return f"not in the air {TAKEOFF_S:g} s after the takeoff began: landing" if w.phase_s > TAKEOFF_S else ""
+    late = w.phase_s > w.takeoff_s + TAKEOFF_S
+    return f"not in the air {w.takeoff_s + TAKEOFF_S:.0f} s after the takeoff began: landing" if late else ""
 
 
 def _rejoin_late(w: Watch) -> str:

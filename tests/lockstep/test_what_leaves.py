@@ -5,6 +5,7 @@ import pytest
 
 from companion.phases import OVER, Phase
 from companion.vehiclelink import VEHICLE_LINK
+from tests.conftest import HOP
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -181,3 +182,11 @@ def test_a_reference_that_is_no_place_is_not_sent_and_the_last_one_is_held(fly, 
     assert len({(m.x, m.y, m.z) for m in held}) == 1
     assert all((m.vx, m.vy, m.vz) == (0, 0, 0) for m in held)
     assert sum("a setpoint is withheld" in note for note in flight.notes) == 1
+
+
+@pytest.mark.parametrize("autopilot", ["px4", "ardupilot"])
+def test_a_high_takeoff_takes_its_time(fly, autopilot):
+    high = HOP.replace("altitude: [0, 4]", "altitude: [0, 40]").replace("altitude: 1.5", "altitude: 30")
+    flight = fly(high, autopilot=autopilot, limit_s=200)
+    assert flight.companion.phase is Phase.DONE
+    assert not flight.companion.failure

@@ -131,7 +131,7 @@ ROWS = [
     ("no estimate", FLYING, says(flags=1024), 0.9, 1.2, Phase.LANDING, "estimator not converged: landing"),
     ("astray", Phase.REJOINING, None, 0.0, 0.0, Phase.LANDING, ""),  # below, by itself
     ("stranded", FLYING, no_way, 29.0, 30.2, Phase.LANDING, r"no safe way for 30 s \(walled in\)"),
-    ("takeoff late", Phase.TAKING_OFF, says(landed=GROUND), 28.0, 31.0, Phase.LANDING, "not in the air 30 s"),
+    ("takeoff late", Phase.TAKING_OFF, says(landed=GROUND), 33.0, 35.0, Phase.LANDING, "not in the air 34 s"),
     (
         "rejoining late",
         Phase.REJOINING,
