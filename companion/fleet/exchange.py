@@ -25,6 +25,8 @@ _HEAD = Struct("<BBIqI3d3f3ffqH")
 YIELDS, TO_GOAL = 1, 2
 FARTHEST, FASTEST = 1e5, 200.0
 """Places and speeds beyond these are nobody's [m], [m/s]."""
+LONGEST_S, SHORTEST_S = 1e6, 1e-6
+"""Of a trajectory, and between two of its knots."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +87,9 @@ def unpack(data: bytes) -> Shared | None:
         return None
     sender, flags, sequence, stamp_us, frame, lat, lon, alt, *numbers, start_us, count = _HEAD.unpack_from(body)
     rest = body[_HEAD.size :]
-    if len(rest) != (12 * count + 8 * (count + 4) if count else 0) or not all(map(math.isfinite, numbers)):
+    if len(rest) != (12 * count + 8 * (count + 4) if count else 0) or 0 < count < 4:
+        return None
+    if not all(map(math.isfinite, numbers)):
         return None
     position, velocity, radius = tuple(numbers[:3]), tuple(numbers[3:6]), numbers[6]
     if max(map(abs, position)) > FARTHEST or max(map(abs, velocity)) > FASTEST or not 0.0 < radius <= 100.0:
@@ -96,11 +100,16 @@ def unpack(data: bytes) -> Shared | None:
     if count:
         points = np.frombuffer(rest, dtype="<f4", count=3 * count).astype(np.float64).reshape(-1, 3)
         knots = np.frombuffer(rest, dtype="<f8", offset=12 * count).astype(np.float64)
+        if not (np.abs(points).max() <= FARTHEST and np.isfinite(knots).all() and knots[-1] <= LONGEST_S):
+            return None
+        if not (np.diff(knots[3:-3]) >= SHORTEST_S).all():
+            return None
+        speeds = 3.0 * np.diff(points, axis=0) / (knots[4:-1] - knots[1:-4])[:, None]  # their hull holds every velocity
+        if not np.abs(speeds).max() <= FASTEST:
+            return None
         try:
             trajectory = Trajectory(points, knots)
         except (ValueError, PlannerError):
-            return None
-        if np.abs(trajectory.control_points).max() > FARTHEST:
             return None
         flown = Flown(trajectory, start_us, bool(flags & TO_GOAL))
     known = all(map(math.isfinite, (lat, lon, alt))) and abs(lat) <= 90.0 and abs(lon) <= 180.0

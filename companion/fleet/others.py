@@ -14,7 +14,7 @@ import math
 from collections import deque
 from dataclasses import dataclass, field
 
-from companion.fleet.exchange import Shared, unpack
+from companion.fleet.exchange import FARTHEST, Shared, unpack
 from companion.geodesy import Geodetic, to_local
 from companion.seam import FloatArray, Level, Note, Vector
 from companion.seeing.tracks import Tracks
@@ -93,7 +93,8 @@ class Others:
             if shared.sender not in self._elsewhere:
                 self._elsewhere.add(shared.sender)
                 self._tell(
-                    Level.WARNING, f"vehicle {shared.sender} does not say where on the earth it flies: not minded"
+                    Level.WARNING,
+                    f"vehicle {shared.sender} does not say where near us on the earth it flies: not minded",
                 )
             return
         other = self._others.get(shared.sender)
@@ -145,7 +146,8 @@ class Others:
         if shared.origin is None or self._origin is None:
             return None
         north, east = to_local(self._origin, shared.origin.latitude, shared.origin.longitude)
-        return (north, east, self._origin.altitude - shared.origin.altitude)
+        shift = (north, east, self._origin.altitude - shared.origin.altitude)
+        return shift if max(map(abs, shift)) <= FARTHEST else None
 
     def _tell(self, level: Level, text: str) -> None:
         if len(self._said) < 8:

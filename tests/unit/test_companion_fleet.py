@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -95,6 +96,29 @@ def test_rubbish_and_damage_are_nobody(data: bytes, at: int, value: int) -> None
     if good[at] != value:
         good[at] = value
         assert unpack(bytes(good)) is None
+
+
+@given(st.lists(st.tuples(st.integers(0, 250), st.binary(min_size=1, max_size=8)), min_size=1, max_size=8))
+def test_whatever_a_liar_with_a_good_checksum_tells_nothing_raises(changes: list[tuple[int, bytes]]) -> None:
+    body = bytearray(pack(shared(flown=Flown(LINE, 0)))[10:])
+    for at, value in changes:
+        body[at : at + len(value)] = value[: max(0, len(body) - at)]
+    data = b"CFS1" + (len(body) + 10).to_bytes(2, "little") + crc32(body).to_bytes(4, "little") + bytes(body)
+    others, tracks = Others(OURS, 0, Geodetic(47.0, 8.0, 0.0)), Tracks()
+    for now_us in (0, 1_000_000, 5_000_000):
+        others.take(now_us, data)
+        others.step(now_us, now_us, HERE, tracks)
+        assert all(math.isfinite(x) for m in tracks.movers() for x in (*m.centre, *m.velocity, m.radius))
+
+
+def test_a_way_that_nobody_can_fly_is_refused() -> None:
+    for points, knots in (
+        (LINE.control_points * 200, LINE.knots),  # 300 m/s
+        (LINE.control_points, LINE.knots * 1e-3),
+        (LINE.control_points, LINE.knots * 1e6),
+        (LINE.control_points * 1e5, LINE.knots * 1e4),
+    ):
+        assert unpack(pack(shared(flown=Flown(Trajectory(points, knots), 0)))) is None
 
 
 @pytest.mark.parametrize(
@@ -192,11 +216,14 @@ def test_other_mission_frames_are_joined_by_their_origins_or_not_minded_with_a_w
     ours = Geodetic(47.0, 8.0, 500.0)
     theirs = Geodetic(*to_geodetic(ours, 30.0, -40.0), 510.0)
     tracks = Tracks()
-    others = heard(shared(1, frame=1, origin=theirs), shared(2, frame=1), origin=ours)
+    away = Geodetic(-47.0, 8.0, 510.0)
+    others = heard(shared(1, frame=1, origin=theirs), shared(2, frame=1), shared(3, frame=1, origin=away), origin=ours)
     others.step(0, 0, HERE, tracks)
     assert np.allclose(centres(tracks)[1], (40.0, -40.0, -13.0), atol=1e-3)
     assert set(centres(tracks)) == {1}
-    assert "vehicle 2 does not say where on the earth it flies: not minded" in [n.text for n in others.take_said()]
+    assert "vehicle 2 does not say where near us on the earth it flies: not minded" in [
+        n.text for n in others.take_said()
+    ]
 
 
 def test_two_with_our_number_are_told_once_and_what_is_kept_is_bounded() -> None:
