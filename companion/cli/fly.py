@@ -115,7 +115,9 @@ def _fly(
         stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
         gc.collect()
         gc.freeze()  # what is here now stays: no collection in flight walks through it again
-        pace = fly_realtime(companion, links, planning, taps, operator=operator, stop=stop)
+        pace = fly_realtime(
+            companion, links, planning, taps, operator=operator, stop=stop, rate=lambda: companion.clock.rate
+        )
         if not companion.over:
             companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
         recorder.metadata("sockets", {key: str(value) for key, value in _sockets(links)})

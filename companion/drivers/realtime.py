@@ -37,6 +37,14 @@ class Core(Protocol):
     def step(self, now_us: int, inputs: Sequence[Input]) -> list[Output]: ...
 
 
+SHORTEST_TICK_NS = 2_000_000
+
+
+def tick_ns(tick_us: int, rate: float) -> int:
+    """Our time between two ticks [ns]: for a vehicle `rate` times as fast as we are, 50 Hz of its own time."""
+    return max(SHORTEST_TICK_NS, round(tick_us * 1000 / max(1.0, rate)))
+
+
 def fly_realtime(
     companion: Core,
     links: Mapping[str, UdpLink],
@@ -45,9 +53,10 @@ def fly_realtime(
     *,
     operator: Callable[[int], Order | None],
     stop: Callable[[], bool] = lambda: False,
+    rate: Callable[[], float] = lambda: 1.0,
 ) -> Pace:
-    """Fly until the companion is done or `stop` says so (asked once a tick)."""
-    period_ns = companion.TICK_US * 1000
+    """Fly until the companion is done or `stop` says so (asked once a tick); `rate`: the vehicle's pace."""
+    period_ns = tick_ns(companion.TICK_US, rate())
     epoch_ns = time.time_ns() - time.monotonic_ns()
     names = {id(link): name for name, link in links.items()}
     sockets = list(links.values())
@@ -78,6 +87,7 @@ def fly_realtime(
         for tap in taps:
             tap(tick)
         index += 1
+        period_ns = tick_ns(companion.TICK_US, rate())
         deadline_ns += period_ns
         behind = (time.monotonic_ns() - deadline_ns) // period_ns
         if behind > 0:  # whole periods were missed: they stay missed

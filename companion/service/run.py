@@ -248,7 +248,8 @@ class Service:
             gc.collect()
             gc.freeze()  # what is here now stays: no collection in flight walks through it again
             signals = self._signals
-            pace = fly_realtime(companion, self._links, planning, taps, operator=signals, stop=signals.stop)
+            rate = lambda: companion.clock.rate  # noqa: E731  as the vehicle's time runs
+            pace = fly_realtime(companion, self._links, planning, taps, operator=signals, stop=signals.stop, rate=rate)
             gc.unfreeze()
             self._close(recorder, pace)
         left = companion.phase in AIRBORNE and not companion.over

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from companion.drivers.realtime import tick_ns
 from companion.vehicleclock import SLEW, VehicleClock
 
 TICK = 20_000
@@ -51,3 +52,10 @@ def test_a_silence_keeps_the_rate():
     clock, rows = run(2.0, 20.0, stop=(10.0, 16.0))
     assert clock.rate == pytest.approx(2.0, abs=0.01)
     assert np.diff(rows[-500:, 1]) == pytest.approx(2 * TICK, abs=400)
+
+
+@pytest.mark.parametrize(
+    ("rate", "tick_ms"), [(0.5, 20.0), (1.0, 20.0), (1.25, 16.0), (4.0, 5.0), (10.0, 2.0), (50.0, 2.0)]
+)
+def test_a_vehicle_faster_than_ours_gets_its_setpoints_at_50_hz_of_its_own_time(rate, tick_ms):
+    assert tick_ns(20_000, rate) == tick_ms * 1e6
