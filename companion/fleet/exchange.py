@@ -102,7 +102,7 @@ def unpack(data: bytes) -> Shared | None:
         knots = np.frombuffer(rest, dtype="<f8", offset=12 * count).astype(np.float64)
         if not (np.abs(points).max() <= FARTHEST and np.isfinite(knots).all() and knots[-1] <= LONGEST_S):
             return None
-        if not (np.diff(knots[3:-3]) >= SHORTEST_S).all():
+        if knots[:4].any() or (knots[-4:] != knots[-1]).any() or not (np.diff(knots[3:-3]) >= SHORTEST_S).all():
             return None
         speeds = 3.0 * np.diff(points, axis=0) / (knots[4:-1] - knots[1:-4])[:, None]  # their hull holds every velocity
         if not np.abs(speeds).max() <= FASTEST:
