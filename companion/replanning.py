@@ -46,8 +46,10 @@ AWAY_SPARE = 0.1
 """What a step out of the radius may come nearer than where it begins, by the newest map [m]."""
 STANDING_US = 1_000_000
 """For so long after its end a way is to be clear as well: the vehicle stands there."""
-AGAIN_US = 500_000
-"""Between two plans from scratch."""
+FORGIVEN, RECENT_US = 1, 2_000_000
+"""How often on a leg, when nothing on the ladder leads on, what was not seen so lately is forgotten."""
+AGAIN_US, AGAIN_LATER_US = 500_000, 1_500_000
+"""Between two plans from scratch; and how much more when the ladder has been climbed in vain."""
 LONGEST_STAY_US = 60_000_000
 """At the goal, until nothing is about to cross the column under it; then it goes on all the same."""
 PATIENCE_US = 1_000_000
@@ -99,6 +101,7 @@ class Replanning:
         self._on_track_us = 0
         self._lost = False
         self._stays_us = 0  # when the goal was reached first
+        self._forgiven = 0  # times the map was cut down to what is in sight, on this leg
         self._at_goal = False  # the stop is one at the goal, until what crosses it is gone
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
@@ -156,7 +159,7 @@ class Replanning:
         if aim is not self._aim:
             self._forget()
             self._aim, self._due_us, self._on_track_us = aim, flight_us, flight_us
-            self._sight.jumped = False
+            self._sight.jumped, self._forgiven = False, 0
         flown = self._where_it_is(flight_us, pose, flown)
         scratch = self._cold_answer
         if scratch is not None and scratch.flown is not None and not flown.to_goal and flight_us >= end_us(flown):
@@ -390,6 +393,11 @@ class Replanning:
             self._cold_us = boundary + AGAIN_US
             tight = self._radius <= self._hull
             self._rung = 0 if tight or self._rung + 1 == len(LADDER) else self._rung + 1
+            self._cold_us += 0 if self._rung else AGAIN_LATER_US
+            if self._rung == 0 and self._forgiven < FORGIVEN and boundary - self._stopped_us > PATIENCE_US:
+                self._forgiven += 1
+                self._sight.map.forget_unseen(boundary - RECENT_US)
+                self._tell(Level.WARNING, "no way with all that was seen: looking again at what is out of sight")
             self._fresh = True
             if answer.reason != self.trouble and self.trouble:
                 self.trouble = answer.reason

@@ -197,6 +197,12 @@ class RollingMap:
         self.low[a, b] = self.high[a, b] = 0
         self.version += len(a) > 0
 
+    def forget_unseen(self, since_us: int) -> None:
+        """Forget what was not hit since a time: some of it may never have been there."""
+        a, b = np.nonzero((self.high > self.low) & (self._stamp < since_us))
+        self.low[a, b] = self.high[a, b] = 0
+        self.version += len(a) > 0
+
     def shift(self) -> None:
         """Forget everything: the frame has moved under the map."""
         self.low[:] = self.high[:] = 0

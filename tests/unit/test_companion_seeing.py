@@ -184,6 +184,14 @@ def test_what_was_not_seen_for_long_is_forgotten_unless_the_path_flown_is_near()
     assert cells(seen_map) == {(20, 0)}
 
 
+def test_what_is_out_of_sight_can_be_forgotten():
+    seen_map = RollingMap(0.1, (-4.0, 0.0))
+    seen_map.add(1_000_000, looking((0, 0, -1.5), [(1, 0, 0)], [2.05]))
+    seen_map.add(5_000_000, looking((0, 0, -1.5), [(0, 1, 0)], [2.05]))
+    seen_map.forget_unseen(3_000_000)
+    assert cells(seen_map) == {(0, 20)}
+
+
 def test_the_window_rolls_with_the_vehicle_and_what_stays_in_it_keeps_its_place():
     seen_map = RollingMap(0.5, (-4.0, 0.0), extent=20.0)
     seen_map.add(0, looking((0.1, 0.1, -1.5), [(1, 0, 0), (-1, 0, 0)], [8.0, 8.0]))
