@@ -1,9 +1,9 @@
-"""Flights by what the vehicle sees: `python -m benchmarks.bench_seeing [seeds] [family ...] [--pop-up] [--movers]`.
+"""Flights by what the vehicle sees: `python -m benchmarks.bench_seeing [seeds] [family ...] [--pop-up] [--one]`.
 
 Whole flights in lockstep of the companion and the bundled vehicle, wind-still, in the worlds of `planner.families`,
 none of whose obstacles the planner is told of: all it has are the vehicle's OBSTACLE_DISTANCE messages. A flight counts
 as reached when it lands as planned at the goal; touched when the vehicle's ball was in an obstacle, by the truth.
-Mazes that are walled off on purpose are left out. `--pop-up`: a wall 6 m ahead of the hull at full speed instead.
+Mazes that are walled off on purpose are left out. `--pop-up`: a wall 6 m ahead of the hull at full speed instead; `--one`: one process.
 """
 
 import math
@@ -137,11 +137,12 @@ def told(family: str, outcomes: list[Outcome]) -> None:
     """A line for the family, and one for each flight that did not go well."""
     reached, touched = sum(o.reached for o in outcomes), sum(not o.clearance > 0.0 for o in outcomes)
     seconds = np.median([o.seconds for o in outcomes])
+    worst, least = max(o.p95 for o in outcomes), min(o.clearance for o in outcomes)
+    mean = {name: np.mean([getattr(o, name) for o in outcomes]) for name in ("stops", "scratch", "switches", "wall_s")}
     print(
-        f"{family:8} reached {reached} of {len(outcomes)}, touched {touched}, least {min(o.clearance for o in outcomes):.3f} m, "
-        f"{seconds:.1f} s, p95 {max(o.p95 for o in outcomes):.3f} m, stops {np.mean([o.stops for o in outcomes]):.1f}, "
-        f"from scratch {np.mean([o.scratch for o in outcomes]):.1f}, switches {np.mean([o.switches for o in outcomes]):.1f}, "
-        f"joint {max(o.joint for o in outcomes):.0e}, {np.mean([o.wall_s for o in outcomes]):.1f} s a flight",
+        f"{family:8} reached {reached} of {len(outcomes)}, touched {touched}, least {least:.3f} m, {seconds:.1f} s, "
+        f"p95 {worst:.3f} m, stops {mean['stops']:.1f}, from scratch {mean['scratch']:.1f}, "
+        f"switches {mean['switches']:.1f}, joint {max(o.joint for o in outcomes):.0e}, {mean['wall_s']:.1f} s a flight",
         flush=True,
     )
     for o in outcomes:
