@@ -3,7 +3,8 @@
 Whole flights in lockstep of the companion and the bundled vehicle, wind-still, in the worlds of `planner.families`,
 none of whose obstacles the planner is told of: all it has are the vehicle's OBSTACLE_DISTANCE messages. A flight counts
 as reached when it lands as planned at the goal; touched when the vehicle's ball was in an obstacle, by the truth.
-Mazes that are walled off on purpose are left out. `--pop-up`: a wall 6 m ahead of the hull at full speed instead; `--one`: one process.
+Mazes that are walled off on purpose are left out. `--pop-up`: a wall 6 m ahead of the hull at full speed
+instead; `--one`: one process.
 """
 
 import math
