@@ -59,6 +59,8 @@ START_SLACK = 3.0
 MOVING = AIRBORNE - {Phase.LANDING}
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
+LISTEN_US = 500_000
+"""Before a flight that goes by what is seen, movers are listened to for so long at least."""
 CONFIRM_US = 2_000_000
 """An accepted command whose effect does not show after this is given again; PX4's HEARTBEAT is up to 1 s late."""
 CONFIRM_TRIES = 5
@@ -460,6 +462,8 @@ class Companion:
 
     def _engaging(self, now_us: int, out: list[Output]) -> Event | None:
         if self.autopilot.in_control(self.telemetry):
+            if self.mission.senses() and now_us - self._entered_us < LISTEN_US:
+                return None  # not everything that moves has told where it is yet
             crossing = self.replanning.in_the_way(self._flight_us)
             if crossing and now_us - self._entered_us < self.config.wait_ready_s * 1e6:
                 if not self._crossing:
