@@ -23,10 +23,11 @@ from typing import Any
 
 import numpy as np
 
+from companion.asking import Asking
 from companion.autopilots import AUTOPILOTS
 from companion.autopilots.base import Autopilot, stream_requests
 from companion.autopilots.px4 import Px4
-from companion.commands import Command, Outcome, ParameterWrite, is_for
+from companion.commands import Command, Outcome
 from companion.fleet.member import FLEET_LINK, Member
 from companion.geodesy import Geodetic, to_local
 from companion.ground.router import Router
@@ -35,7 +36,6 @@ from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, P
 from companion.itinerary import Itinerary
 from companion.lookout import Lookout
 from companion.mission import Mission
-from companion.offboard import flaw, setpoint_message
 from companion.phases import AIRBORNE, OVER, STREAMING, Event, Phase, after
 from companion.preparation import Preparation
 from companion.rejoin import Rejoin
@@ -43,9 +43,10 @@ from companion.replanning import Replanning as Replanned
 from companion.safety import Action, Safety, Watch
 from companion.seam import Input, Level, Note, Order, Output, PlanReady, Reference, ReplanReady
 from companion.seeing.sight import Sight
+from companion.setpoints import SetpointStream
 from companion.telemetry import Telemetry
 from companion.vehicleclock import VehicleClock
-from companion.vehiclelink import COMPONENT_ID, VEHICLE_LINK, VehicleLink
+from companion.vehiclelink import VEHICLE_LINK, VehicleLink
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 from wire.framing import Framer
@@ -61,9 +62,6 @@ STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
 LISTEN_US = 500_000
 """Before a flight that goes by what is seen, movers are listened to for so long at least."""
-CONFIRM_US = 2_000_000
-"""An accepted command whose effect does not show after this is given again; PX4's HEARTBEAT is up to 1 s late."""
-CONFIRM_TRIES = 5
 PACE_WAIT_US = 4_000_000
 """So long a ready vehicle is waited for until its pace has been measured."""
 ESTIMATOR_FRESH_US = 2_000_000
@@ -123,7 +121,7 @@ class Companion:
         self.lookout: Lookout | None = None
         if config.ground_links:
             self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
-        self.fence = mission.geofence()
+        self.setpoints = SetpointStream(mission)
         self.router = Router(config.ground_links)
         self._sensed = Framer()
         self.fleet: Member | None = None
@@ -140,22 +138,18 @@ class Companion:
         self._streaming_us = 0
         self._heartbeat_due_us = 0
         self._boots = 1
-        self._tries = 0
-        self._command: Command | ParameterWrite | None = None
+        self._asking = Asking()
         self._preparation: Preparation | None = None  # of the vehicle that was heard last
         self._land_asked = False
         self._given_back = False
         self._plan_refusal = ""
         self._came_down = False
         self._going_home = False
-        self._withheld = ""
         takeoff = mission.steps[0].takeoff
         self._climb_s = 0.0 if takeoff is None else 2.0 * takeoff.altitude / mission.limits.climb
-        self._fastest = max(mission.limits.speed, mission.limits.climb, *(step.speed or 0.0 for step in mission.steps))
         self._holding = ""
         self._crossing = ""
         self._warned: tuple[int, str] | None = None  # when, what: the vehicle's last warning
-        self._reference: Reference | None = None  # of the tick before
 
     # ---- one tick -----------------------------------------------------------------------------------------------
 
@@ -181,7 +175,7 @@ class Companion:
         self.seeing.step(flight_us)
         self._report_texts(now_us, out)
         if self.phase not in OVER:
-            self._answer_command(now_us)
+            self._asking.take_answers(now_us, self.telemetry, self.link.target)
             event = self._event(now_us, out)
             if event is not None:
                 self._move(now_us, event, out)
@@ -320,14 +314,6 @@ class Companion:
                 self._warned = (now_us, text)
         self.telemetry.texts.clear()
 
-    def _answer_command(self, now_us: int) -> None:
-        for ack in self.telemetry.acks:
-            if isinstance(self._command, Command) and is_for(ack, self.link.target, COMPONENT_ID):
-                self._command.answered(ack, now_us)
-        self.telemetry.acks.clear()
-        if isinstance(self._command, ParameterWrite):
-            self._command.echoed(self.telemetry.parameters.get(self._command.name, b""))
-
     # ---- 3. what happened ---------------------------------------------------------------------------------------
 
     def _event(self, now_us: int, out: list[Output]) -> Event | None:
@@ -378,17 +364,11 @@ class Companion:
         booting = autopilot.booting(t) and not t.armed and not on_ground
         comes_down = autopilot.comes_down(t)
         self._came_down = self.phase is Phase.LANDING and (comes_down or came_down)
-        error = 0.0
-        if self._reference is not None:
-            error = float(np.linalg.norm(t.position_n - self.origin_n - self._reference.position_m))
         text = ""
         if self._warned is not None and now_us - self._warned[0] <= TEXT_FRESH_US:
             text = f" ({self._warned[1]})"
-        fence_m = None
-        if self.fence is not None and self._reference is not None:
-            fence_m = self.fence.inside(self._reference.position_m) - self.fence.margin
         return Watch(
-            fence_m=fence_m,
+            fence_m=self.setpoints.fence_m,
             phase=self.phase,
             phase_s=(now_us - self._entered_us) / 1e6,
             takeoff_s=self._climb_s,
@@ -406,19 +386,13 @@ class Companion:
             comes_down=comes_down,
             came_down=came_down,
             on_ground=on_ground,
-            mode_asked=self.phase in (Phase.REJOINING, Phase.LANDING) and self._command is not None and self._asking,
+            mode_asked=self.phase in (Phase.REJOINING, Phase.LANDING) and self._asking.open,
             estimator=autopilot.estimator_lost(t) if now_us - (t.estimator_us or 0) < ESTIMATOR_FRESH_US else "",
             rejected=tuple(t.rejected),
-            error_m=error,
+            error_m=self.setpoints.error_m(t.position_n - self.origin_n),
             battery=t.battery,
             no_way=self.replanning.trouble or ("" if self.lookout is None else self.lookout.trouble),
         )
-
-    @property
-    def _asking(self) -> bool:
-        """Whether the command under way may still change what the vehicle does."""
-        command = self._command
-        return command is not None and command.outcome in (Outcome.PENDING, Outcome.ACCEPTED)
 
     def _connecting(self, now_us: int, out: list[Output]) -> Event | None:
         if self.telemetry.heartbeat_us is not None:
@@ -435,16 +409,17 @@ class Companion:
     def _preparing(self, now_us: int, out: list[Output]) -> Event | None:
         preparation, waited_us = self._preparation, now_us - self._entered_us
         assert preparation is not None
-        if self._command is not None and self._command.outcome is not Outcome.PENDING:
-            told = preparation.over(self._command)
+        question = self._asking.question
+        if question is not None and question.outcome is not Outcome.PENDING:
+            told = preparation.over(question)
             out.extend([] if told is None else [told])
-            self._command = None
+            self._asking.question = None
         nowhere = self.mission.origin is not None and self.telemetry.global_e7 is None
         told = preparation.look(now_us, ("no global position",) if nowhere else ())
         out.extend([] if told is None else [told])
         out.extend(self.link.pack(message) for message in preparation.reads(now_us, self.link.target))
         paced = self.clock.known or waited_us > PACE_WAIT_US
-        if preparation.done(now_us) and self._command is None and paced:
+        if preparation.done(now_us) and self._asking.question is None and paced:
             return Event.READY
         if waited_us > self.config.wait_ready_s * 1e6:
             reasons = ", ".join(preparation.reasons)
@@ -489,13 +464,10 @@ class Companion:
         if self.autopilot.takes_off_itself:
             if self.autopilot.airborne(self.telemetry):
                 return Event.AIRBORNE
-            repeat_refused = (
-                isinstance(self._command, Command)
-                and self._command.sent > 1
-                and self._command.outcome is Outcome.REFUSED
-            )
+            question = self._asking.question
+            repeat_refused = question is not None and question.sent > 1 and question.outcome is Outcome.REFUSED
             if climbing or repeat_refused:  # it climbs already, be the answer to the first one lost
-                self._command = None
+                self._asking.question = None
             return Event.REFUSED if self._command_failed(now_us, None) else None
         self.itinerary.advance(self._flight_us)
         return Event.AIRBORNE if self.itinerary.index > 0 and self.autopilot.airborne(self.telemetry) else None
@@ -547,13 +519,11 @@ class Companion:
         return isinstance(self.replanning, Replanned) and aim is not None and not aim.via_m and self.itinerary.index > 0
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
-        command = self._command
-        late = command is not None and command.outcome is Outcome.ACCEPTED and not self._came_down
-        late = late and isinstance(command, Command) and now_us - command.answered_us > CONFIRM_US
+        command, late = self._asking.question, self._asking.no_effect(now_us) and not self._came_down
         if command is not None and (command.outcome in (Outcome.REFUSED, Outcome.UNANSWERED) or late):
             why = "accepted, but it does not land" if late else command.failure()
             out.append(Note(Level.ERROR, f"{why}; asking again"))
-            self._command = self._way_down()
+            self._asking.question = self._way_down()
         return None
 
     def _handed_over(self, now_us: int, out: list[Output]) -> Event | None:
@@ -572,24 +542,10 @@ class Companion:
         return Event.REFUSED
 
     def _command_failed(self, now_us: int, again: Callable[[], Command] | None) -> bool:
-        """Whether the command under way has come to nothing; `failure` then says how.
-
-        One that was accepted without showing an effect is given `again`, some times.
-        """
-        command = self._command
-        if not isinstance(command, Command) or command.outcome is Outcome.PENDING:
-            return False
-        if command.outcome is Outcome.ACCEPTED:
-            if again is None or now_us - command.answered_us < CONFIRM_US:
-                return False
-            self._tries += 1
-            if self._tries < CONFIRM_TRIES:
-                self._command = again()
-                return False
-            self.failure = f"the vehicle accepted to {command.what}, and does not"
-            return True
-        self.failure = command.failure()
-        return True
+        """Whether the command under way has come to nothing; `failure` then says how."""
+        why = self._asking.failure(now_us, again)
+        self.failure = why or self.failure
+        return bool(why)
 
     # ---- 4. the work of a phase ---------------------------------------------------------------------------------
 
@@ -601,7 +557,8 @@ class Companion:
         may_arm = before is Phase.ARMING and event in (Event.LAND_ASKED, Event.REFUSED)
         if self.phase is Phase.FAILED and (may_arm or (before is Phase.TAKING_OFF and event is Event.REFUSED)):
             out.append(self.link.pack(self.autopilot.disarm().message(self.link.target)))  # it may arm after all
-        self._entered_us, self._command, self._tries = now_us, None, 0
+        self._entered_us = now_us
+        self._asking.forget()
         bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
         text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
         out.append(Note(Level.ERROR if bad else Level.INFO, text))
@@ -629,10 +586,10 @@ class Companion:
                 self._plan_refusal = misplaced or self.itinerary.obstruction()
                 out.extend([] if self._plan_refusal else self.itinerary.wanted())
             case Phase.ARMING:
-                self._command = self.autopilot.arm()
+                self._asking.question = self.autopilot.arm()
             case Phase.TAKING_OFF:
                 takeoff = self.mission.steps[0].takeoff
-                self._command = self.autopilot.takeoff(takeoff.altitude) if takeoff is not None else None
+                self._asking.question = self.autopilot.takeoff(takeoff.altitude) if takeoff is not None else None
                 if not self.autopilot.takes_off_itself:
                     self.itinerary.begin(self._flight_us)
             case Phase.FLYING if event is Event.AIRBORNE:
@@ -648,11 +605,11 @@ class Companion:
                     self.itinerary.airborne(self._flight_us)
                 if event is Event.GIVEN_BACK:
                     self.failure = ""
-                    self._command = self.autopilot.take_control()
+                    self._asking.question = self.autopilot.take_control()
                 self.rejoin.begin(self.pose(self._flight_us))
             case Phase.LANDING:
                 self._came_down = False
-                self._command = self._way_down()
+                self._asking.question = self._way_down()
 
     def _fix_frame(self) -> str:
         """Fix the mission frame in the vehicle's local frame: why it cannot stand where it does, or nothing."""
@@ -673,13 +630,13 @@ class Companion:
 
     def _work(self, now_us: int, out: list[Output]) -> None:
         """Keep the command under way going; in PREPARING the next of the queue, in ENGAGING the mode."""
-        if self.phase is Phase.PREPARING and self._command is None and self._preparation is not None:
-            self._command = self._preparation.next()
+        if self.phase is Phase.PREPARING and self._asking.question is None and self._preparation is not None:
+            self._asking.question = self._preparation.next()
         streamed = now_us - self._streaming_us >= STREAM_BEFORE_ASKING_US or not self.autopilot.streams_on_ground
-        if self.phase is Phase.ENGAGING and self._command is None and streamed:
-            self._command = self.autopilot.take_control()
-        if self._command is not None and self._command.due(now_us):
-            out.append(self.link.pack(self._command.message(self.link.target)))
+        if self.phase is Phase.ENGAGING and self._asking.question is None and streamed:
+            self._asking.question = self.autopilot.take_control()
+        message = self._asking.message(now_us, self.link.target)
+        out.extend([] if message is None else [self.link.pack(message)])
 
     # ---- 5. streams ---------------------------------------------------------------------------------------------
 
@@ -691,28 +648,13 @@ class Companion:
             out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if not self._takes_setpoints():
             return
-        reference = self._sound(self._asked_for(now_us), out)
-        if reference is None:
-            return
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
-        message = setpoint_message(reference, self.origin_n, time_boot_ms, self.link.target)
-        if message is None:
-            return
-        self._reference = reference
-        out.append(reference)
-        out.append(self.link.pack(message))
-
-    def _sound(self, reference: Reference, out: list[Output]) -> Reference | None:
-        """The reference, or the last sound one at rest; None before there was one."""
-        found = flaw(reference, self.fence, self._fastest, self.mission.limits.acceleration)
-        if not found:
-            self._withheld = ""
-            return reference
-        if found != self._withheld:
-            self._withheld = found
-            out.append(Note(Level.ERROR, f"a setpoint is withheld: {found}; the last place before it is held"))
-        last = self._reference
-        return None if last is None else Reference(last.position_m, np.zeros(3), np.zeros(3), last.yaw)
+        wanted, setpoints = self._asked_for(now_us), self.setpoints
+        message, told = setpoints.next(wanted, self.origin_n, time_boot_ms, self.link.target)
+        out.extend(told)
+        if message is not None and setpoints.reference is not None:
+            out.append(setpoints.reference)
+            out.append(self.link.pack(message))
 
     def _takes_setpoints(self) -> bool:
         """Whether a setpoint is wanted in this phase by this autopilot."""

@@ -52,11 +52,12 @@ class Puppet:
         self.companion.step(self.now_us, self.said())
         self.companion.step(self.now_us, self.said())
         self.companion.origin_n = np.zeros(3)
-        self.companion.phase, self.companion._entered_us, self.companion._command = phase, self.now_us, None
+        self.companion.phase, self.companion._entered_us = phase, self.now_us
+        self.companion._asking.forget()
         if phase is Phase.REJOINING:
             self.companion.rejoin.begin(self.companion.pose(0))
             self.companion.itinerary.stopped = True
-            self.companion._reference = None
+            self.companion.setpoints.reference = None
         for _ in range(4):
             self.tick()
         assert self.companion.phase is phase
@@ -213,7 +214,7 @@ def test_a_low_battery_sends_it_home_and_a_critical_one_down(flavour):
         puppet = Puppet(flavour, FLYING)
         puppet.battery = battery
         puppet.run(2.5)
-        assert puppet.companion._command.parameters[1:] in (mode[flavour], mode[flavour][:1])
+        assert puppet.companion._asking.question.parameters[1:] in (mode[flavour], mode[flavour][:1])
 
 
 @pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
