@@ -7,7 +7,7 @@ A parameter is written likewise, and its echo is the answer.
 """
 
 import struct
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 
 from companion.telemetry import Ack
@@ -24,8 +24,28 @@ class Outcome(Enum):
     UNANSWERED = "unanswered"
 
 
+@dataclass(slots=True, kw_only=True)
+class Repeated:
+    """What is sent again until it is answered."""
+
+    outcome: Outcome = Outcome.PENDING
+    sent: int = 0
+    _next_us: int = 0
+
+    def due(self, now_us: int) -> bool:
+        """Whether it should be sent now; counts the tries and gives up after `TRIES`."""
+        if self.outcome is not Outcome.PENDING or now_us < self._next_us:
+            return False
+        if self.sent >= TRIES:
+            self.outcome = Outcome.UNANSWERED
+            return False
+        self.sent += 1
+        self._next_us = now_us + REPEAT_US
+        return True
+
+
 @dataclass(slots=True)
-class Command:
+class Command(Repeated):
     """A command on its way.
 
     Attributes
@@ -38,22 +58,8 @@ class Command:
     command: int
     parameters: tuple[float, ...]
     what: str
-    outcome: Outcome = Outcome.PENDING
     result: int | None = None  # MAV_RESULT of the last answer
-    sent: int = 0
     answered_us: int = 0  # when it was accepted
-    _next_us: int = field(default=0)
-
-    def due(self, now_us: int) -> bool:
-        """Whether it should be sent now; counts the tries and gives up after `TRIES`."""
-        if self.outcome is not Outcome.PENDING or now_us < self._next_us:
-            return False
-        if self.sent >= TRIES:
-            self.outcome = Outcome.UNANSWERED
-            return False
-        self.sent += 1
-        self._next_us = now_us + REPEAT_US
-        return True
 
     def answered(self, ack: Ack, now_us: int = 0) -> None:
         """Take an acknowledgement; one for another command, or from before it was sent, changes nothing."""
@@ -84,7 +90,7 @@ def is_for(ack: Ack, system_id: int, component_id: int) -> bool:
 
 
 @dataclass(slots=True)
-class ParameterWrite:
+class ParameterWrite(Repeated):
     """A PARAM_SET on its way; done when the vehicle tells the value that was written.
 
     Attributes
@@ -97,20 +103,6 @@ class ParameterWrite:
     value: float
     kind: int
     shown: str
-    outcome: Outcome = Outcome.PENDING
-    sent: int = 0
-    _next_us: int = field(default=0)
-
-    def due(self, now_us: int) -> bool:
-        """Whether it should be sent now; counts the tries and gives up after `TRIES`."""
-        if self.outcome is not Outcome.PENDING or now_us < self._next_us:
-            return False
-        if self.sent >= TRIES:
-            self.outcome = Outcome.UNANSWERED
-            return False
-        self.sent += 1
-        self._next_us = now_us + REPEAT_US
-        return True
 
     def echoed(self, raw: bytes) -> None:
         """Take what the vehicle says the parameter is: the four bytes of param_value."""

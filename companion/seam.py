@@ -111,17 +111,15 @@ class ReplanReady:
     cpu_ms: float = float("nan")
 
 
-ORDERS = ("land", "hold", "resume", "return", "abort", "start", "goto")
-
-
 @dataclass(frozen=True, slots=True)
 class Order:
     """What a person asks for: at the keyboard, or from a ground station.
 
-    `goto` has the values north, east, altitude [m] in the mission frame; the others have none.
+    Names are land, hold, resume, return, abort, start and goto, which alone has values: north, east, altitude [m] in the
+    mission frame.
     """
 
-    name: str  # one of ORDERS
+    name: str
     values: tuple[float, ...] = ()
     source: str = ""  # who, for people
 
