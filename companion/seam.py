@@ -115,8 +115,8 @@ class ReplanReady:
 class Order:
     """What a person asks for: at the keyboard, or from a ground station.
 
-    Names are land, hold, resume, return, abort, start and goto, which alone has values: north, east, altitude [m] in the
-    mission frame.
+    Names are land, hold, resume, return, abort, start and goto, which alone has values: north, east, altitude [m] in
+    the mission frame.
     """
 
     name: str
