@@ -111,7 +111,8 @@ def test_file(flight): pass
 def test_none(flight): pass
 """
     )
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-p", "companion.testing.plugin", "-q"]
+    (tmp_path / "conftest.py").write_text((MISSIONS / "conftest.py").read_text())  # the plug-in, installed or not
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-q"]
     run = subprocess.run(
         [*command, f"--rootdir={tmp_path}", "-c", "/dev/null", str(tmp_path)],
         cwd=MISSIONS.parent,
