@@ -8,15 +8,18 @@ MAVPROXY := $(CURDIR)/$(PEERS)/mavproxy
 PACKAGES := companion fakevehicle planner logs wire
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test test-clients lint check format bench bench-peers pin clean
+.PHONY: help demo test soak test-clients lint check format bench bench-peers pin clean
 help:            ## show this
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
 	$(BIN)/companion demo
 
-test: $(STAMP)   ## every test
-	$(BIN)/python -m pytest -q
+test: $(STAMP)   ## every test, but for those of `make soak`
+	$(BIN)/python -m pytest -q -m "not soak"
+
+soak: $(STAMP)   ## tests that are judged by the clock, or long: want a machine of their own
+	$(BIN)/python -m pytest -q -m soak
 
 test-clients: $(STAMP) $(PEERS)/mavproxy/.installed $(PEERS)/mavsdk3/.installed ## other people's clients fly the vehicle: MAVSDK 3 and 4, pymavlink, MAVProxy
 	PYTHONPATH=$(MAVPROXY) MAVPROXY=$(MAVPROXY)/bin/mavproxy.py $(BIN)/python -m pytest -q tests/clients

@@ -118,6 +118,7 @@ def test_a_place_ordered_in_flight_is_reached_round_what_is_seen_and_the_mission
     assert "at north 17, east 4, altitude 1.5, holding until ordered on" in notes
 
 
+@pytest.mark.soak
 @pytest.mark.slow
 def test_a_goal_that_is_walled_off_is_given_up_at_a_stop_and_landed():
     walled = UNKNOWN.replace("east: [6, 15], altitude: [0, 4]}, hidden", "east: [-1, 21], altitude: [0, 4]}, hidden")

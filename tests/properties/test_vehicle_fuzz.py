@@ -252,6 +252,7 @@ def test_200_000_datagrams_change_nothing_and_leave_nothing_behind() -> None:
     assert counters.bad_crc > TICKS * EACH // 8
 
 
+@pytest.mark.soak
 @pytest.mark.slow
 def test_as_many_change_as_little_in_ardupilots_flavour() -> None:
     """The same in Guided."""

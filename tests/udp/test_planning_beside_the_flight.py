@@ -43,6 +43,7 @@ class Restless(WorkerPlanning):
         return first[:1]
 
 
+@pytest.mark.soak
 @pytest.mark.udp
 def test_setpoints_leave_at_50_hz_with_a_p99_gap_under_30_ms_while_plans_are_computed_all_the_time():
     mission = parse_mission(HOP.encode(), "hop.yaml")

@@ -32,6 +32,7 @@ def one_core():
     os.sched_setaffinity(0, cores)
 
 
+@pytest.mark.soak
 @pytest.mark.udp
 def test_setpoints_leave_at_50_hz_while_replanning_at_10_hz_on_the_vehicles_own_core(one_core, tmp_path: Path):
     mission = parse_mission(UNKNOWN.encode(), "unknown.yaml")
