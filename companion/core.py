@@ -57,6 +57,7 @@ BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGI
 """Phases in which giving up costs nothing."""
 START_SLACK = 3.0
 """How far from where its file says a vehicle may stand, where the mission's place on the earth is known [m]."""
+ARMED_ELSEWHERE = "somebody else armed the vehicle: it is not taken over"
 MOVING = AIRBORNE - {Phase.LANDING}
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
@@ -139,6 +140,8 @@ class Companion:
         self._heartbeat_due_us = 0
         self._boots = 1
         self._asking = Asking()
+        self._mode_before = 0  # when the phase began
+        self._held: Reference | None = None  # where a landing begins that comes from no path
         self._preparation: Preparation | None = None  # of the vehicle that was heard last
         self._land_asked = False
         self._given_back = False
@@ -386,7 +389,9 @@ class Companion:
             comes_down=comes_down,
             came_down=came_down,
             on_ground=on_ground,
-            mode_asked=self.phase in (Phase.REJOINING, Phase.LANDING) and self._asking.open,
+            mode_asked=self.phase in (Phase.REJOINING, Phase.LANDING)
+            and self._asking.open
+            and t.custom_mode == self._mode_before,  # a third mode is somebody else's
             estimator=autopilot.estimator_lost(t) if now_us - (t.estimator_us or 0) < ESTIMATOR_FRESH_US else "",
             rejected=tuple(t.rejected),
             error_m=self.setpoints.error_m(t.position_n - self.origin_n),
@@ -427,6 +432,8 @@ class Companion:
         return None
 
     def _planning(self, now_us: int, out: list[Output]) -> Event | None:
+        if self.telemetry.armed:
+            return self._refused(ARMED_ELSEWHERE)
         if self._plan_refusal:
             return self._refused(f"no plan: {self._plan_refusal}")
         if self.itinerary.planned():
@@ -436,6 +443,8 @@ class Companion:
         return None
 
     def _engaging(self, now_us: int, out: list[Output]) -> Event | None:
+        if self.telemetry.armed:
+            return self._refused(ARMED_ELSEWHERE)
         if self.autopilot.in_control(self.telemetry):
             if self.mission.senses() and now_us - self._entered_us < LISTEN_US:
                 return None  # not everything that moves has told where it is yet
@@ -449,9 +458,10 @@ class Companion:
         return Event.REFUSED if self._command_failed(now_us, self.autopilot.take_control) else None
 
     def _arming(self, now_us: int, out: list[Output]) -> Event | None:
-        if self.telemetry.armed:
+        in_control = self.autopilot.in_control(self.telemetry)
+        if self.telemetry.armed and in_control:
             return Event.ARMED
-        if not self.autopilot.in_control(self.telemetry) and self.telemetry.mode_is_sure:
+        if not in_control and self.telemetry.mode_is_sure:
             self.failure = f"the vehicle left {self.autopilot.offboard_mode} before it armed"
             return Event.MODE_LOST
         return Event.REFUSED if self._command_failed(now_us, self.autopilot.arm) else None
@@ -493,6 +503,8 @@ class Companion:
 
     def _rejoining(self, now_us: int, out: list[Output]) -> Event | None:
         in_control = self.autopilot.in_control(self.telemetry)
+        if in_control:
+            self._asking.question = None  # the mode that was asked for: who changes it now means it
         heard = self.telemetry.position_us is not None and now_us - self.telemetry.position_us < POSITION_FRESH_US
         flies = self.autopilot.airborne(self.telemetry) or not self.autopilot.takes_off_itself
         self.itinerary.advance(self._flight_us)  # to its stop
@@ -559,6 +571,9 @@ class Companion:
             out.append(self.link.pack(self.autopilot.disarm().message(self.link.target)))  # it may arm after all
         self._entered_us = now_us
         self._asking.forget()
+        self._mode_before = self.telemetry.custom_mode
+        from_hold = before is Phase.REJOINING and self.phase is Phase.LANDING
+        self._held = self.rejoin.hold(self.itinerary.yaw) if from_hold else None
         bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
         text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
         out.append(Note(Level.ERROR if bad else Level.INFO, text))
@@ -673,6 +688,8 @@ class Companion:
         """The reference of this tick, in a phase that takes setpoints."""
         if self.phase is Phase.REJOINING:
             return self.rejoin.hold(self.itinerary.yaw)
+        if self._held is not None:
+            return self._held
         if self.phase in (Phase.FLYING, Phase.LANDING) and self.rejoin.under_way(self._flight_us):
             return self.rejoin.reference(self._flight_us, self.itinerary.yaw)
         return self.itinerary.reference(self._flight_us)  # while landing it goes on to the end of its step, as planned

@@ -251,3 +251,70 @@ def test_every_row_is_in_the_page_and_walked_here():
 
 def test_a_silent_vehicle_is_no_event_of_the_ground():
     assert (Phase.HANDED_OVER, Event.VEHICLE_SILENT) not in TRANSITIONS
+
+
+PILOTS = {"px4": 3 << 16, "ardupilot": 5}  # Position, LOITER
+
+
+def commands_after(puppet, happening, seconds):
+    """Commands sent while something happens, and in the phase that follows."""
+    decoder, sent = mavlink.MAVLink(None), []
+    happening(puppet)
+    for _ in range(round(seconds * 50)):
+        puppet.now_us, puppet.boot_ms = puppet.now_us + 20_000, puppet.boot_ms + 20
+        for output in puppet.companion.step(puppet.now_us, puppet.said()):
+            if isinstance(output, Datagram) and output.link == VEHICLE_LINK:
+                message = decoder.decode(bytearray(output.data))
+                sent += [message.command] if message.get_type() == "COMMAND_LONG" else []
+    return sent
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_pilot_who_takes_the_mode_again_after_giving_it_back_is_not_asked_for_it(flavour):
+    puppet = Puppet(flavour, Phase.FLYING)
+    says(mode=HOLD, intended=HOLD)(puppet)
+    assert puppet.run(1.0).phase is Phase.HANDED_OVER
+    strays(2.5)(puppet)
+    assert puppet.companion.obey(puppet.now_us, Order("resume")) == ""
+    puppet.run(0.2)
+    says(mode=OURS, intended=OURS)(puppet)
+    assert puppet.run(1.0).phase is Phase.REJOINING
+    assert commands_after(puppet, says(mode=PILOTS, intended=PILOTS), 5.0) == []
+    assert puppet.companion.phase is Phase.HANDED_OVER
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_pilot_who_takes_the_mode_before_a_landing_shows_is_told_to_land_no_more_than_once(flavour):
+    puppet = Puppet(flavour, Phase.FLYING)
+    assert puppet.companion.obey(puppet.now_us, Order("land")) == ""
+    assert puppet.run(0.3).phase is Phase.LANDING
+    assert len(commands_after(puppet, says(mode=PILOTS, intended=PILOTS), 10.0)) <= 1
+    assert puppet.companion.phase is Phase.HANDED_OVER
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+@pytest.mark.parametrize("phase", [Phase.PLANNING, Phase.ENGAGING])
+def test_a_vehicle_that_somebody_else_arms_meanwhile_is_not_taken_over(flavour, phase):
+    puppet = Puppet(flavour, Phase.FLYING)
+    puppet.companion.phase, puppet.companion._boots = phase, puppet.companion.telemetry.boots
+    assert commands_after(puppet, says(mode=PILOTS, intended=PILOTS), 2.0) == []
+    assert puppet.companion.phase is Phase.FAILED
+    assert "somebody else armed the vehicle" in puppet.companion.failure
+
+
+def test_a_vehicle_armed_by_its_pilot_in_another_mode_is_not_told_to_take_off():
+    puppet = Puppet("ardupilot", Phase.FLYING)
+    puppet.companion.phase, puppet.companion._boots = Phase.ARMING, puppet.companion.telemetry.boots
+    says(armed=False, landed=GROUND)(puppet)
+    puppet.run(1.0)
+    assert mavlink.MAV_CMD_NAV_TAKEOFF not in commands_after(puppet, says(armed=True, mode=PILOTS), 1.0)
+    assert puppet.companion.phase is Phase.FAILED
+
+
+def test_setpoints_stay_where_a_landing_begins_that_comes_from_no_path():
+    puppet = Puppet("px4", Phase.REJOINING)
+    puppet.run(0.2)
+    held = puppet.companion.setpoints.reference.position_m
+    assert puppet.companion.obey(puppet.now_us, Order("land")) == ""
+    assert puppet.run(0.4).phase is Phase.LANDING
+    assert np.array_equal(puppet.companion.setpoints.reference.position_m, held)
