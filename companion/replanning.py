@@ -94,7 +94,6 @@ class Replanning:
         self._in_a_row = 0
         self._cold: ReplanWanted | None = None  # the plan from scratch under way
         self._cold_answer: ReplanReady | None = None
-        self._cold_map = -1
         self._cold_us = 0
         self._rung = 0
         self._stopped_us = 0

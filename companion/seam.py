@@ -40,8 +40,6 @@ class PlanWanted:
     seed: int
     method: str
     via_m: tuple[Vector, ...] = ()  # points on the way
-    start_velocity: Vector = (0.0, 0.0, 0.0)  # [m/s]
-    start_acceleration: Vector = (0.0, 0.0, 0.0)  # [m/s^2]
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,8 +37,6 @@ def make_plan(world: World, wanted: PlanWanted) -> Plan:
         seed=wanted.seed,
         method=wanted.method,
         via=wanted.via_m,
-        start_velocity=wanted.start_velocity,
-        start_acceleration=wanted.start_acceleration,
     )
 
 

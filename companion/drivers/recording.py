@@ -37,7 +37,6 @@ from wire.datagram import Datagram
 
 MISSION_ATTACHMENT = "mission.yaml"
 CONFIG_METADATA = "companion.config"
-_STILL = (0.0, 0.0, 0.0)
 
 
 def to_record(item: Input | Output, phase: str) -> schema.Record:
@@ -45,7 +44,6 @@ def to_record(item: Input | Output, phase: str) -> schema.Record:
     match item:
         case PlanWanted():
             limits = item.limits
-            moving = item.start_velocity != _STILL or item.start_acceleration != _STILL
             return schema.PlanWanted(
                 request_id=item.request_id,
                 start=tuple(item.start_m),
@@ -56,8 +54,6 @@ def to_record(item: Input | Output, phase: str) -> schema.Record:
                 radius=item.radius,
                 seed=item.seed,
                 method=item.method,
-                start_velocity=item.start_velocity if moving else (),
-                start_acceleration=item.start_acceleration if moving else (),
                 via=tuple(x for point in item.via_m for x in point),
             )
         case PlanReady():
