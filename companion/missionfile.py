@@ -14,7 +14,7 @@ from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.mission import Mission
 from companion.planfiles import is_plan_file, read
-from companion.planfiles.plan import mission_document, to_mission
+from companion.planfiles.document import mission_document, to_mission
 from companion.shapes import ORIGIN, Origin
 
 MAX_FILE_BYTES = 1_000_000

@@ -12,10 +12,11 @@ from companion.geofence import Area
 from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
 from companion.planfiles import Plan, is_plan_file, read
-from companion.planfiles.items import ItemFlaw, from_steps
-from companion.planfiles.plan import mission_document
+from companion.planfiles.document import mission_document
+from companion.planfiles.items import ItemFlaw
 from companion.planfiles.qgc import write_plan
 from companion.planfiles.wpl import write_wpl
+from companion.planfiles.writing import from_steps
 
 PLAN, WPL, YAML = (".plan",), (".waypoints", ".txt", ".mission"), (".yaml", ".yml")
 USUAL_SPEED = 5.0

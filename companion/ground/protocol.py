@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from companion.planfiles.items import GLOBAL, MOST_ITEMS, Item, ItemFlaw, to_steps
+from companion.planfiles.items import GLOBAL, MOST_ITEMS, Item, ItemFlaw
+from companion.planfiles.reading import to_steps
 from wire.dialect import mavlink
 
 _m = mavlink

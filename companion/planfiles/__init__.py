@@ -1,11 +1,12 @@
 """Plan files of ground stations: QGroundControl's `.plan` and `QGC WPL 110`, read and written.
 
-`is_plan_file` tells by the content; `read` gives a `plan.Plan`, and `plan.mission_document` what a mission file would
-say. `items` holds what each item means. Latitude and longitude in degrees, altitudes in metres.
+`is_plan_file` tells by the content; `read` gives a `document.Plan`, and `document.mission_document` what a mission file
+would say. `reading` says what each item means, `writing` the way back. Latitude and longitude in degrees, altitudes in
+metres.
 """
 
 from companion.errors import MissionError
-from companion.planfiles.plan import Plan
+from companion.planfiles.document import Plan
 from companion.planfiles.qgc import read_plan
 from companion.planfiles.wpl import MAGIC, read_wpl
 

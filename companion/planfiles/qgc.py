@@ -12,8 +12,8 @@ from typing import Any
 
 from companion.errors import MissionError
 from companion.geodesy import Geodetic
+from companion.planfiles.document import Plan
 from companion.planfiles.items import MOST_ITEMS, NAN, Item
-from companion.planfiles.plan import Plan
 
 MOST_DEPTH = 64
 """Of nested lists and objects."""

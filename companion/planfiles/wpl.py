@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from companion.errors import MissionError
 from companion.geodesy import Geodetic
+from companion.planfiles.document import Plan
 from companion.planfiles.items import GLOBAL, MOST_ITEMS, Item
-from companion.planfiles.plan import Plan
 from wire.dialect import mavlink
 
 MAGIC = "QGC WPL 110"

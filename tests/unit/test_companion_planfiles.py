@@ -14,7 +14,9 @@ from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.missionfile import parse_mission
 from companion.planfiles import is_plan_file, read
-from companion.planfiles.items import READERS, Item, ItemFlaw, from_steps, to_steps
+from companion.planfiles.items import Item, ItemFlaw
+from companion.planfiles.reading import READERS, to_steps
+from companion.planfiles.writing import from_steps
 
 HOME = [47.397742, 8.545594, 488.0]
 

@@ -8,7 +8,8 @@ from typing import Any
 from companion.errors import MissionError
 from companion.geodesy import Geodetic, to_local
 from companion.mission import Mission
-from companion.planfiles.items import Item, ItemFlaw, to_steps
+from companion.planfiles.items import Item, ItemFlaw
+from companion.planfiles.reading import to_steps
 from companion.shapes import ORIGIN
 
 AROUND = 50.0
