@@ -38,7 +38,7 @@ from companion.lookout import Lookout
 from companion.mission import Mission
 from companion.phases import AIRBORNE, OVER, STREAMING, Event, Phase, after
 from companion.preparation import Preparation
-from companion.rejoin import Rejoin
+from companion.rejoin import SAME_PLACE, Rejoin
 from companion.replanning import Replanning as Replanned
 from companion.safety import Action, Safety, Watch
 from companion.seam import Input, Level, Note, Order, Output, PlanReady, Reference, ReplanReady
@@ -240,7 +240,7 @@ class Companion:
                     if obeyed:
                         self._hear(now_us, packet)
                     if type(self.seeing) is not NothingSeen:
-                        self.seeing.take(now_us, packet, self.pose(self._flight_us))
+                        self.seeing.take(packet, self.pose(self._flight_us))
                 if self.link.impostor:
                     out.append(Note(Level.WARNING, self.link.impostor))
                     self.link.impostor = ""
@@ -252,7 +252,7 @@ class Companion:
             case Datagram(link=link) if link in self.config.sensor_links:
                 for packet in self._sensed.packets(item.data):
                     if packet.system_id == self.link.system_id:
-                        self.seeing.take(now_us, packet, self.pose(self._flight_us))
+                        self.seeing.take(packet, self.pose(self._flight_us))
             case Datagram(link=link) if self.fleet is not None and link.startswith(FLEET_LINK):
                 self.fleet.take(now_us, item)
             case ReplanReady():
@@ -509,13 +509,16 @@ class Companion:
         flies = self.autopilot.airborne(self.telemetry) or not self.autopilot.takes_off_itself
         self.itinerary.advance(self._flight_us)  # to its stop
         stands = self.rejoin.settle(self.pose(self._flight_us), in_control and heard and flies)
-        if stands and self._replanned():  # what is seen counts: planned anew from here, not in the world as it was told
+        target = self.itinerary.reference(self._flight_us)
+        if stands and self._by_sight(target):  # planned anew from here, not in the world as it was told
+            here = self.rejoin.hold(self.itinerary.yaw).position_m
+            if not self.itinerary.leads_on(self._flight_us) and not self.itinerary.detour(self._flight_us, here):
+                return None  # it still comes to rest
             self.itinerary.stopped = False
             if self.itinerary.flown(self._flight_us) is None:
                 return None  # the mission's clock starts again
             self.replanning.lost()
             return Event.REJOINED
-        target = self.itinerary.reference(self._flight_us)
         wanted = self.rejoin.wanted(target) if stands else None
         out.extend([] if wanted is None else [wanted])
         if self.rejoin.refusal:
@@ -525,10 +528,11 @@ class Companion:
             return Event.MODE_LOST
         return Event.REJOINED if self.rejoin.ready and in_control else None
 
-    def _replanned(self) -> bool:
-        """Whether the leg under way is planned again and again, by what is seen."""
-        aim = self.itinerary.aim()
-        return isinstance(self.replanning, Replanned) and aim is not None and not aim.via_m and self.itinerary.index > 0
+    def _by_sight(self, target: Reference) -> bool:
+        """Whether the way back to where the mission waits is planned by what is seen."""
+        away_m = math.dist(self.rejoin.hold(self.itinerary.yaw).position_m, target.position_m)
+        leg = self.itinerary.leads_on(self._flight_us)
+        return isinstance(self.replanning, Replanned) and (leg or away_m >= SAME_PLACE)
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
         command, late = self._asking.question, self._asking.no_effect(now_us) and not self._came_down

@@ -39,8 +39,11 @@ class Seeing(Protocol):
         """The mission frame is known: places count from now on."""
         ...
 
-    def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
-        """One packet of any component of the vehicle's system, or of a sensors' link; whether it told of something."""
+    def take(self, packet: Packet, pose: Pose) -> bool:
+        """One packet of any component of the vehicle's system, or of a sensors' link; whether it told of something.
+
+        `pose` is what telemetry says when it comes, and has the flight's time.
+        """
         ...
 
     def step(self, flight_us: int) -> None:
@@ -96,7 +99,7 @@ class NothingSeen:
     def begin(self) -> None:
         pass
 
-    def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
+    def take(self, packet: Packet, pose: Pose) -> bool:
         return False
 
     def step(self, flight_us: int) -> None:

@@ -49,7 +49,7 @@ def put_hits(
     mark: LongArray,
     window: LongArray,
     resolution: float,
-    now_us: int,
+    flight_us: int,
     turn: int,
 ) -> int:
     """Take the cells of points (m, 3) [m]; how many were free before."""
@@ -65,7 +65,7 @@ def put_hits(
         elif k < low[a, b] or k >= high[a, b]:
             low[a, b], high[a, b] = min(low[a, b], k), max(high[a, b], k + 1)
             fresh += 1
-        stamp[a, b], misses[a, b], mark[a, b] = now_us, 0, turn
+        stamp[a, b], misses[a, b], mark[a, b] = flight_us, 0, turn
     return fresh
 
 
@@ -150,7 +150,7 @@ class RollingMap:
         self._placed = False
         self._seen: tuple[int, MapView] | None = None
 
-    def add(self, now_us: int, scan: Scan) -> int:
+    def add(self, flight_us: int, scan: Scan) -> int:
         """Take in a scan; the number of cells that changed."""
         self._roll(scan.position_m)
         self._turn += 1
@@ -159,7 +159,7 @@ class RollingMap:
         inside = (points[:, 2] > self.z[0]) & (points[:, 2] < self.z[1])
         points = np.ascontiguousarray(points[inside])
         r, table = self.resolution, (self.low, self.high)
-        changed = put_hits(points, *table, self._stamp, self._misses, self._mark, self.window, r, now_us, self._turn)
+        changed = put_hits(points, *table, self._stamp, self._misses, self._mark, self.window, r, flight_us, self._turn)
         known = ~np.isnan(scan.distance)
         reach = np.where(hit, scan.distance - SPARED * r, scan.maximum)[known]
         changed += look_through(
@@ -180,19 +180,19 @@ class RollingMap:
             self.low[a, b] = self.high[a, b] = 0
             self.version += 1
 
-    def decay(self, now_us: int) -> None:
+    def decay(self, flight_us: int) -> None:
         """Forget what was not seen for long and is not near the path flown; once a second, whenever it is called."""
-        if now_us - self._sweep_us < SWEEP_US:
+        if flight_us - self._sweep_us < SWEEP_US:
             return
-        self._sweep_us = now_us
-        a, b = np.nonzero((self.high > self.low) & (self._stamp < now_us - self._decay_us))
+        self._sweep_us = flight_us
+        a, b = np.nonzero((self.high > self.low) & (self._stamp < flight_us - self._decay_us))
         if not len(a):
             return
         if self._path:
             path = np.array(self._path)[:, :2]
             middle = (np.column_stack(self._cells(a, b)) + 0.5) * self.resolution
             far = np.array([((place - path) ** 2).sum(axis=1).min() > KEPT**2 for place in middle])
-            self._stamp[a[~far], b[~far]] = now_us - self._decay_us + LATER_US  # asked again then, not every second
+            self._stamp[a[~far], b[~far]] = flight_us - self._decay_us + LATER_US  # asked again then, not every second
             a, b = a[far], b[far]
         self.low[a, b] = self.high[a, b] = 0
         self.version += len(a) > 0

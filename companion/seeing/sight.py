@@ -2,7 +2,8 @@
 
 A scan is placed where the vehicle was when the sensor looked: half a second of poses is kept, by the vehicle's own
 time since boot. A sender whose clock is another (Unix time, or none) is placed where the vehicle is now. Hits on what
-the mission says already, and on what moves, stay out of the map.
+the mission says already, and on what moves, stay out of the map. What is kept bears the flight's time
+(`Pose.flight_us`), in which everything is flown, whatever the vehicle's pace.
 """
 
 import math
@@ -22,9 +23,13 @@ from companion.seeing.tracks import Tracks
 from wire.dialect import mavlink
 from wire.framing import Packet
 
-POSES = 32
+POSES = 64
 LATEST_MS = 500
 """A scan older than this, by the vehicle's clock, has another clock."""
+CARRIED_MS, ANCHOR_CARRIED_MS = 100, 500
+"""A position is carried on by its velocity for so long at most: for a scan, and to say where on earth the frame is."""
+BACK_MS = 1_000
+"""A time since boot that goes back by less is a packet that came late, or twice."""
 KNOWN = 0.35
 """Hits this near to a solid that the mission tells of are that solid [m]."""
 GROUND = 0.2
@@ -48,7 +53,13 @@ _PLACED = mavlink.ADSB_FLAGS_VALID_COORDS | mavlink.ADSB_FLAGS_VALID_ALTITUDE
 @dataclass(frozen=True, slots=True)
 class _At:
     boot_ms: int
+    placed_ms: int  # of the position in it: an attitude may be newer
     pose: Pose
+
+    def position_m(self, ms: int, most_ms: int) -> FloatArray:
+        """Where the vehicle was at a time since boot: the position carried on, or back, by its velocity."""
+        late_ms = min(max(ms - self.placed_ms, -most_ms), most_ms)
+        return self.pose.position_m + 1e-3 * late_ms * self.pose.velocity_m
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +97,7 @@ class Sight:
         self._hull = mission.vehicle.radius
         self._ground_z = bottom - GROUND
         self._poses: deque[_At] = deque(maxlen=POSES)
+        self._newest_ms: dict[int, int] = {}  # by kind
         self._anchor: _Anchor | None = None
         self._placed = False  # the mission frame is known
 
@@ -99,21 +111,24 @@ class Sight:
         """The mission frame is fixed: what comes from now on counts."""
         self._placed = True
         self._poses.clear()
+        self._newest_ms.clear()
+        self._anchor = None
         self.map.shift()
 
-    def take(self, now_us: int, packet: Packet, pose: Pose) -> bool:
+    def take(self, packet: Packet, pose: Pose) -> bool:
         """One packet of the vehicle's system; `pose` is what telemetry says with it. Whether it told of something."""
+        flight_us = pose.flight_us
         kind = packet.message_id
         if not self._placed or not self._looks:
             return False
         if kind in (_POSITION, _ATTITUDE):
             if packet.component_id == mavlink.MAV_COMP_ID_AUTOPILOT1:
-                self._place(boot_ms(packet.payload), pose, kind == _POSITION)
+                self._place(kind, boot_ms(packet.payload), pose)
             return False
         if kind in _SCANS:
-            return self._look(now_us, packet)
+            return self._look(flight_us, packet)
         if kind == _ADSB:
-            return self._hear(now_us, packet.payload)
+            return self._hear(flight_us, packet.payload)
         if kind == _GLOBAL and packet.component_id == mavlink.MAV_COMP_ID_AUTOPILOT1:
             self._anchor_at(packet.payload)
         return False
@@ -123,41 +138,46 @@ class Sight:
         self.map.decay(flight_us)
         self.tracks.forget(flight_us)
 
-    def _place(self, ms: int, pose: Pose, fresh: bool) -> None:
-        poses = self._poses
-        if poses and fresh:
+    def _place(self, kind: int, ms: int, pose: Pose) -> None:
+        poses, newest_ms = self._poses, self._newest_ms
+        if -BACK_MS < ms - newest_ms.get(kind, -BACK_MS) <= 0:
+            return  # overtaken, or doubled: telemetry has not taken it either
+        newest_ms[kind] = ms
+        if poses and kind == _POSITION:
             before = poses[-1]
-            passed = (ms - before.boot_ms) / 1e3
+            passed = (ms - before.placed_ms) / 1e3
             meant = before.pose.position_m + passed * before.pose.velocity_m
             if 0.0 <= passed < 0.5 and math.dist(meant, pose.position_m) > JUMP:
                 poses.clear()
+                self._anchor = None
                 self.map.shift()
                 self.jumped = True
         if poses and poses[-1].boot_ms == ms:
             poses.pop()
-        poses.append(_At(ms, pose))
+        poses.append(_At(ms, newest_ms.get(_POSITION, ms), pose))
 
-    def _look(self, now_us: int, packet: Packet) -> bool:
+    def _near(self, ms: int) -> _At:
+        """The pose kept that is nearest to a time since boot; there is one."""
+        return min(self._poses, key=lambda p: abs(p.boot_ms - ms))
+
+    def _look(self, flight_us: int, packet: Packet) -> bool:
         if not self._poses:
             return False
-        stamp_ms = stamp_of(packet.message_id, packet.payload) // 1000
-        at = min(self._poses, key=lambda p: abs(p.boot_ms - stamp_ms))
-        late = (stamp_ms - at.boot_ms) / 1e3
-        if abs(stamp_ms - self._poses[-1].boot_ms) > LATEST_MS:
-            at, late = self._poses[-1], 0.0
-        pose = at.pose
-        where = pose.position_m + min(max(late, -0.1), 0.1) * pose.velocity_m
+        ms, newest = stamp_of(packet.message_id, packet.payload) // 1000, self._poses[-1]
+        known = abs(ms - newest.boot_ms) <= LATEST_MS  # else its clock is another
+        at, ms = (self._near(ms), ms) if known else (newest, newest.placed_ms)
+        pose, where = at.pose, at.position_m(ms, CARRIED_MS)
         if not np.isfinite(where).all():
             return False
         scan = scan_of(packet.message_id, packet.payload, where, rotation(pose.roll, pose.pitch, pose.yaw))
         if scan is None:
             return False
-        self.map.add(now_us, self._unknown(now_us, scan))
+        self.map.add(flight_us, self._unknown(flight_us, scan))
         self.map.here(self._poses[-1].pose.position_m, self._hull)
         self.scans += 1
         return True
 
-    def _unknown(self, now_us: int, scan: Scan) -> Scan:
+    def _unknown(self, flight_us: int, scan: Scan) -> Scan:
         """The scan, its hits on the ground, on known solids and on movers not known."""
         hit = np.flatnonzero(np.isfinite(scan.distance))
         if not len(hit):
@@ -167,7 +187,7 @@ class Sight:
         if self._world is not None:
             known |= self._world.distance(points) < KNOWN
         if len(self.tracks):
-            known |= self.tracks.near(now_us, points)
+            known |= self.tracks.near(flight_us, points)
         if not known.any():
             return scan
         distance = scan.distance.copy()
@@ -175,13 +195,19 @@ class Sight:
         return Scan(scan.stamp_us, scan.position_m, scan.directions, distance, scan.maximum)
 
     def _anchor_at(self, payload: bytes) -> None:
-        """Where the mission frame is on earth: a GLOBAL_POSITION_INT of the same moment as a pose says it."""
-        ms, lat, lon, alt = _GLOBAL_STRUCT.unpack(payload[:28].ljust(28, b"\0"))[:4]
-        at = next((p for p in reversed(self._poses) if p.boot_ms == ms), None)
-        if at is not None:
-            self._anchor = _Anchor(Geodetic(lat * 1e-7, lon * 1e-7, alt * 1e-3), at.pose.position_m)
+        """Where the mission frame is on earth: where a GLOBAL_POSITION_INT and a pose of about that time say it is.
 
-    def _hear(self, now_us: int, payload: bytes) -> bool:
+        Autopilots send the two at moments of their own (ArduCopter 42 ms apart, as recorded).
+        """
+        ms, lat, lon, alt = _GLOBAL_STRUCT.unpack(payload[:28].ljust(28, b"\0"))[:4]
+        at = self._near(ms) if self._poses else None
+        if at is None or abs(ms - at.placed_ms) > ANCHOR_CARRIED_MS:
+            return
+        where = at.position_m(ms, ANCHOR_CARRIED_MS)
+        if np.isfinite(where).all():
+            self._anchor = _Anchor(Geodetic(lat * 1e-7, lon * 1e-7, alt * 1e-3), where)
+
+    def _hear(self, flight_us: int, payload: bytes) -> bool:
         size = _ADSB_STRUCT.size
         address, lat, lon, alt, heading, speed, climb, flags, *_ = _ADSB_STRUCT.unpack(
             payload[:size].ljust(size, b"\0")
@@ -203,5 +229,5 @@ class Sight:
             going = (level * math.cos(course), level * math.sin(course), -up)
         if max(map(abs, place)) > 1e5 or max(map(abs, going)) > 1e3:
             return False
-        self.tracks.told(now_us, address, place, going, self._mover_radius)
+        self.tracks.told(flight_us, address, place, going, self._mover_radius)
         return True

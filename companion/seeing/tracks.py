@@ -32,20 +32,20 @@ class Tracks:
         self._tracks: dict[int, Track] = {}
         self.version = 0
 
-    def told(self, now_us: int, address: int, position_m: Vector, velocity: Vector, radius: float) -> None:
+    def told(self, flight_us: int, address: int, position_m: Vector, velocity: Vector, radius: float) -> None:
         """A mover says where it is, in the mission frame [m], [m/s]."""
         if address not in self._tracks and len(self._tracks) >= MOST_TRACKS:
             del self._tracks[min(self._tracks, key=lambda other: (self._tracks[other].seen_us, other))]
-        self._tracks[address] = Track(position_m, velocity, radius, now_us)
+        self._tracks[address] = Track(position_m, velocity, radius, flight_us)
         self.version += 1
 
     def drop(self, address: int) -> None:
         """Somebody who need not be minded any more."""
         self.version += self._tracks.pop(address, None) is not None
 
-    def forget(self, now_us: int) -> None:
+    def forget(self, flight_us: int) -> None:
         """Drop who is silent."""
-        gone = [a for a, track in self._tracks.items() if now_us - track.seen_us > SILENCE_S * 1e6]
+        gone = [a for a, track in self._tracks.items() if flight_us - track.seen_us > SILENCE_S * 1e6]
         for address in gone:
             del self._tracks[address]
         self.version += len(gone) > 0
@@ -57,11 +57,11 @@ class Tracks:
             for _, t in sorted(self._tracks.items())
         )
 
-    def near(self, now_us: int, points: FloatArray) -> list[bool]:
+    def near(self, flight_us: int, points: FloatArray) -> list[bool]:
         """Which of points (m, 3) may be of a mover."""
         mine = [False] * len(points)
         for track in self._tracks.values():
-            age = (now_us - track.seen_us) / 1e6
+            age = (flight_us - track.seen_us) / 1e6
             centre = [p + v * age for p, v in zip(track.position_m, track.velocity, strict=True)]
             apart = ((points - centre) ** 2).sum(axis=1) <= (track.radius + NEAR + GROWTH * age) ** 2
             mine = [a or bool(b) for a, b in zip(mine, apart, strict=True)]

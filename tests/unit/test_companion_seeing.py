@@ -261,41 +261,41 @@ def flying(made, seconds, speed):
     """Fly north at a speed, a position every 20 ms."""
     for k in range(round(seconds * 50) + 1):
         ms, x = 20 * k, speed * 0.02 * k
-        made.take(0, position(ms, x, 0.0, -2.0), pose(x, 0.0, -2.0, (speed, 0.0, 0.0)))
+        made.take(position(ms, x, 0.0, -2.0), pose(x, 0.0, -2.0, (speed, 0.0, 0.0)))
 
 
 def test_a_scan_is_placed_where_the_vehicle_was_when_the_sensor_looked():
     made = sight()
     flying(made, 0.4, 3.0)
-    assert made.take(0, packet(ring([2501] * 18 + [305], time_usec=220_000)), pose(1.2, 0.0, -2.0))
+    assert made.take(packet(ring([2501] * 18 + [305], time_usec=220_000)), pose(1.2, 0.0, -2.0))
     assert cells(made.map) == {(6, 30)}  # 0.22 s x 3 m/s, not 1.2 m
 
 
 def test_a_sensor_with_another_clock_is_placed_where_the_vehicle_is_now():
     made = sight()
     flying(made, 0.42, 3.0)
-    made.take(0, packet(ring([2501] * 18 + [305], time_usec=1_700_000_000_000_000), component=196), pose(1.26, 0, -2.0))
+    made.take(packet(ring([2501] * 18 + [305], time_usec=1_700_000_000_000_000), component=196), pose(1.26, 0, -2.0))
     assert cells(made.map) == {(12, 30)}
 
 
 def test_hits_on_what_the_mission_tells_of_and_on_the_ground_are_left_out():
     made = sight()
-    made.take(0, position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
-    made.take(0, packet(ring([400])), pose(0.0, 0.0, -2.0))
+    made.take(position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
+    made.take(packet(ring([400])), pose(0.0, 0.0, -2.0))
     assert not cells(made.map)
     low = Pose(0, np.array([0.0, 0.0, -2.0]), np.zeros(3), 0.0, -0.5, 0.0)  # nose down: 4 m on it is under the ground
-    made.take(0, position(20, 0.0, 0.0, -2.0), low)
-    made.take(0, packet(ring([65535] * 36 + [300])), low)
-    made.take(0, packet(ring([450])), low)
+    made.take(position(20, 0.0, 0.0, -2.0), low)
+    made.take(packet(ring([65535] * 36 + [300])), low)
+    made.take(packet(ring([450])), low)
     assert not any(run[2] > 0 for run in runs(made.map))
 
 
 def test_an_estimator_that_moves_its_origin_empties_the_map_and_is_told():
     made = sight()
     flying(made, 0.1, 1.0)
-    made.take(0, packet(ring([2501] * 18 + [300])), pose(0.1, 0, -2.0))
+    made.take(packet(ring([2501] * 18 + [300])), pose(0.1, 0, -2.0))
     assert cells(made.map)
-    made.take(0, position(120, 3.0, 0.0, -2.0), pose(3.0, 0.0, -2.0, (1.0, 0.0, 0.0)))
+    made.take(position(120, 3.0, 0.0, -2.0), pose(3.0, 0.0, -2.0, (1.0, 0.0, 0.0)))
     assert made.jumped
     assert not cells(made.map)
 
@@ -306,28 +306,28 @@ def test_no_payload_makes_the_sight_raise_or_place_anything_outside_its_window(k
     flying(made, 0.1, 1.0)
     for length in [*range(0, 255, 3)] * 3:
         raw = bytes(rng.integers(0, 256, length, dtype=np.uint8))
-        made.take(0, Packet(2, 0, 1, 1, kind, raw, raw), pose(0.1, 0.0, -2.0))
+        made.take(Packet(2, 0, 1, 1, kind, raw, raw), pose(0.1, 0.0, -2.0))
     assert len(made.map.view().runs) < 72 * 255
     assert len(made.tracks) <= MOST_TRACKS
 
 
 def test_nothing_counts_before_the_mission_frame_is_known():
     made = Sight(parse_mission(MISSION.encode(), "sight.yaml"))
-    made.take(0, position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
-    assert not made.take(0, packet(ring([300])), pose(0.0, 0.0, -2.0))
+    made.take(position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
+    assert not made.take(packet(ring([300])), pose(0.0, 0.0, -2.0))
 
 
 def test_a_mover_is_placed_by_the_vehicles_own_place_on_earth():
     made = sight()
-    made.take(0, position(40, 2.0, 1.0, -2.0), pose(2.0, 1.0, -2.0))
+    made.take(position(40, 2.0, 1.0, -2.0), pose(2.0, 1.0, -2.0))
     here = mavlink.MAVLink_global_position_int_message(40, 473977000, 85456000, 500_000, 0, 0, 0, 0, 0)
-    made.take(0, packet(here), pose(2.0, 1.0, -2.0))
+    made.take(packet(here), pose(2.0, 1.0, -2.0))
     valid = 1 | 2 | 4 | 8 | mavlink.ADSB_FLAGS_VERTICAL_VELOCITY_VALID
     north = round(10.0 / 111_180.0 * 1e7)  # 10 m of latitude there
     adsb = mavlink.MAVLink_adsb_vehicle_message(
         0xC1, 473977000 + north, 85456000, 0, 503_000, 9000, 200, 50, b"", 0, 1, valid, 0
     )
-    assert made.take(0, packet(adsb, component=156), pose(2.0, 1.0, -2.0))
+    assert made.take(packet(adsb, component=156), pose(2.0, 1.0, -2.0))
     (mover,) = made.tracks.movers()
     assert mover.centre == pytest.approx((12.0, 1.0, -5.0), abs=0.05)
     assert mover.velocity == pytest.approx((0.0, 2.0, -0.5), abs=1e-9)
@@ -336,7 +336,7 @@ def test_a_mover_is_placed_by_the_vehicles_own_place_on_earth():
 
 def test_hits_on_a_mover_stay_out_of_the_map():
     made = sight()
-    made.take(0, position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
+    made.take(position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
     made.tracks.told(0, 1, (0.0, 3.4, -2.0), (0.0, 0.0, 0.0), 0.5)
-    made.take(0, packet(ring([2501] * 18 + [300])), pose(0.0, 0.0, -2.0))
+    made.take(packet(ring([2501] * 18 + [300])), pose(0.0, 0.0, -2.0))
     assert not cells(made.map)
