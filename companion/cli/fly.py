@@ -1,34 +1,17 @@
 """`companion fly` and `companion demo`: a mission over UDP, recorded, judged at the end."""
 
-import gc
-import subprocess
-import time
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
-from dataclasses import asdict
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-from rich.console import Console
-
-from companion.cli import show
-from companion.cli.operator import STOPPED, Operator
-from companion.core import Companion, CompanionConfig
-from companion.drivers.planning import WorkerPlanning
-from companion.drivers.realtime import fly_realtime
-from companion.drivers.recording import RecordingTap, header, total
-from companion.drivers.tick import Tap
-from companion.errors import CompanionError, MissionError
+from companion.cli.flown import fly_recorded, vehicle_log
+from companion.cli.operator import Operator
+from companion.core import CompanionConfig
+from companion.errors import MissionError
 from companion.fleet.missions import has_vehicles
-from companion.mission import Mission
 from companion.missionfile import parse_mission, read_mission_file
 from companion.service.queue import recording_file
 from companion.vehiclelink import VEHICLE_LINK
-from companion.verdict import FlightMeter, judge
-from logs.errors import RecordingError
-from logs.recorder import Recorder
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
@@ -48,8 +31,8 @@ def fly_demo(record: Path, outs: list[str], seed: int, autopilot: "Autopilot", a
     endpoints = {VEHICLE_LINK: Endpoint("udpin", host, port)} | ground_endpoints(outs)
     config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
     operator, url = Operator(), f"udpout:{host}:{port}"
-    with operator.listening(), running_vehicle(mission, url, seed, _vehicle_log(file), autopilot) as vehicle:
-        return _fly(mission, data, endpoints, file, config, as_json, operator, watch=vehicle)
+    with operator.listening(), running_vehicle(mission, url, seed, vehicle_log(file), autopilot) as vehicle:
+        return fly_recorded(mission, data, endpoints, file, config, as_json, operator, watch=vehicle)
 
 
 def fly_mission(
@@ -77,108 +60,9 @@ def fly_mission(
     )
     operator = Operator()
     with operator.listening():
-        return _fly(mission, data, endpoints, recording_file(record, mission), config, as_json, operator)
+        return fly_recorded(mission, data, endpoints, recording_file(record, mission), config, as_json, operator)
 
 
 def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:
     """The ground stations' links by name."""
     return {f"out{k}": Endpoint.parse(url) for k, url in enumerate(outs)}
-
-
-def _fly(
-    mission: Mission,
-    data: bytes,
-    endpoints: Mapping[str, Endpoint],
-    file: Path,
-    config: CompanionConfig,
-    as_json: bool,
-    operator: Operator,
-    watch: "subprocess.Popen[bytes] | None" = None,
-) -> int:
-    """Prepare, fly, close everything properly, judge; returns the exit code."""
-    out = show.console()
-    companion = Companion(mission, config)
-    meter = FlightMeter(companion)
-    with ExitStack() as stack:
-        with _open(endpoints):
-            pass  # a busy port is told before the kernels are compiled
-        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses())
-        stack.callback(planning.close)
-        if not _warm(mission, planning, operator, out):
-            raise CompanionError("stopped before the flight began")
-        links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
-        urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
-        start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
-        recorder = stack.enter_context(Recorder(file, threaded=True, **start))
-        progress = stack.enter_context(show.ProgressLine(companion, meter, out))
-        taps: list[Tap] = [meter, RecordingTap(companion, recorder), progress]
-        stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
-        gc.collect()
-        gc.freeze()  # what is here now stays: no collection in flight walks through it again
-        pace = fly_realtime(
-            companion, links, planning, taps, operator=operator, stop=stop, rate=lambda: companion.clock.rate
-        )
-        if not companion.over:
-            companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
-        recorder.metadata("sockets", {key: str(value) for key, value in _sockets(links)})
-        try:
-            recorder.close()
-        except RecordingError as error:  # the flight went on without it; the verdict must not
-            companion.failure = companion.failure or str(error)
-        kernel_drops = sum(link.counters.drops for link in links.values())
-    verdict, counters = judge(companion, meter), recorder.counters
-    losses = {
-        "kernel_drops": kernel_drops,
-        "recorder_drops": counters.dropped_raw + counters.dropped_decoded,
-        "sequence_gaps": sum(s.lost for s in companion.link.framer.senders.values()),
-        "late_ticks": pace.late,
-        "missed_ticks": pace.missed,
-    }
-    numbers = {"recording": str(file), "messages_recorded": total(counters), **losses}
-    if as_json:
-        show.print_json({**show.verdict_json(verdict), **numbers})
-    else:
-        shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in losses.items())
-        details = {"messages": str(total(counters)), "losses": shown, "recording": str(file)}
-        show.print_verdict(verdict, mission.expect, details, Console())
-    return 0 if verdict.ok else 1
-
-
-@contextmanager
-def _open(endpoints: Mapping[str, Endpoint]) -> Iterator[dict[str, UdpLink]]:
-    """All links, closed again at the end."""
-    with ExitStack() as stack:
-        yield {name: stack.enter_context(UdpLink(name, endpoint)) for name, endpoint in endpoints.items()}
-
-
-def _warm(mission: Mission, planning: WorkerPlanning, operator: Operator, out: Console) -> bool:
-    """Wait for the worker's kernels and load what this process needs of them; False when the operator gave up."""
-    with show.working(out, "preparing kernels (compiled the first time)"):
-        while not planning.warmed():
-            if operator.asked:
-                return False
-            time.sleep(0.05)
-        mission.planner_world().distance(np.zeros((1, 3)))
-    return not operator.asked
-
-
-def _sockets(links: Mapping[str, UdpLink]) -> Iterator[tuple[str, int]]:
-    """The links' own counters, for the recording."""
-    for name, link in links.items():
-        for key, value in asdict(link.counters).items():
-            yield f"{name}.{key}", value
-
-
-def _ended(process: "subprocess.Popen[bytes] | None") -> bool:
-    return process is not None and process.poll() is not None
-
-
-def _why_stopped(process: "subprocess.Popen[bytes] | None", file: Path) -> str:
-    if process is not None and process.poll() is not None:
-        return f"the vehicle process ended with exit code {process.returncode}: see {_vehicle_log(file)}"
-    return STOPPED
-
-
-def _vehicle_log(file: Path) -> Path:
-    """Where the demo keeps what its vehicle printed."""
-    return file.with_suffix(".vehicle.log")

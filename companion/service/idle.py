@@ -6,7 +6,7 @@ nothing else, unless a plan waits for the place where it stands: that is asked f
 a vehicle stands there (`autostart`).
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from companion.autopilots import AUTOPILOTS
@@ -36,6 +36,7 @@ class Idle:
     mission : name of the mission that would be flown; empty: there is none.
     why_not : why none can begin now, whatever the vehicle does; empty: one can.
     autostart : begin as soon as a vehicle stands there.
+    look : called before a start is granted or refused: what would be flown is looked at as it is now.
     start_asked : a flight shall begin.
     preparing : one is about to; `cancelled` says that somebody does not want it any more.
     place_wanted : a plan waits for where the vehicle stands.
@@ -49,6 +50,7 @@ class Idle:
         self.mission = ""
         self.why_not = ""
         self.autostart = False
+        self.look: Callable[[], None] = lambda: None
         self.start_asked = False
         self.preparing = self.cancelled = self.place_wanted = False
         self.station = GroundStation(lambda: self.link.target)
@@ -84,7 +86,7 @@ class Idle:
                 out.append(self.link.pack(_where(self.link.target)))
             out.extend(Datagram(link, beat.data) for link in self._config.ground_links)
         if self.autostart and self._first_us is not None and now_us - self._first_us >= SETTLE_US:
-            self.start_asked = self.start_asked or not self._refusal()
+            self.start_asked = self.start_asked or (not self._refusal() and not self._refusal_now())
         return out
 
     def obey(self, order: Order) -> str:
@@ -94,9 +96,15 @@ class Idle:
             return ""
         if order.name != "start":
             return "there is no flight"
-        reason = self._refusal()
+        reason = self._refusal_now()
         self.start_asked = self.start_asked or not reason
         return reason
+
+    def _refusal_now(self) -> str:
+        """`_refusal` of what would be flown as it is now."""
+        if not self.preparing:
+            self.look()
+        return self._refusal()
 
     def _refusal(self) -> str:
         """Why no flight can begin now, or nothing."""

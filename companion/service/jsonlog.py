@@ -7,8 +7,7 @@ from contextlib import suppress
 from datetime import UTC, datetime
 from typing import Any, Literal, TextIO
 
-from companion.drivers.tick import Tick
-from companion.seam import Level, Note
+from companion.seam import Level
 
 LEVELS = {Level.ERROR: "error", Level.WARNING: "warning", Level.INFO: "info"}
 LONGEST = 2000
@@ -38,20 +37,3 @@ class Log:
             line = f"{at} {LEVELS[level]:7} {phase:12} {plain}" + "".join(f" {k}={v}" for k, v in more.items())
         with suppress(OSError, ValueError):
             print(line, file=self._stream, flush=True)
-
-
-class LogTap:
-    """A tap: writes the notes of every tick.
-
-    Parameters
-    ----------
-    phase : asked for the phase's name.
-    """
-
-    def __init__(self, log: Log, phase: Any) -> None:
-        self._log, self._phase = log, phase
-
-    def __call__(self, tick: Tick) -> None:
-        for output in tick.outputs:
-            if isinstance(output, Note):
-                self._log.write(output.level, self._phase(), output.text)

@@ -42,11 +42,16 @@ class Missions:
         self._file, self._folder, self._number = file, folder, number
         self._flown: set[str] = set()
         self._uploaded: Ready | None = None
+        self._seen = b""  # the bytes that `ready` was read from
         self.ready: Ready | None = None
         self.why_not = "there is no mission"
 
-    def look(self) -> None:
-        """Read what comes next; `why_not` tells of a file that is none. What was uploaded stays until it is cleared."""
+    def look(self, anew: bool = False) -> None:
+        """Read what comes next; `why_not` tells of a file that is none. What was uploaded stays until it is cleared.
+
+        A file whose bytes are as they were is not parsed again, unless it is looked at `anew`: the files of voxels and
+        clouds that it names may be others now.
+        """
         if self._uploaded is not None:
             self.ready, self.why_not = self._uploaded, ""
             return
@@ -60,7 +65,9 @@ class Missions:
             return
         try:
             data = read_mission_file(path)
-            self.ready, self.why_not = self._read(str(path), data), ""
+            as_it_was = self.ready is not None and self.ready.file == str(path) and data == self._seen
+            if anew or not as_it_was:
+                self.ready, self.why_not, self._seen = self._read(str(path), data), "", data
         except MissionError as error:
             self.ready, self.why_not = None, error.args[0].splitlines()[0]
 

@@ -1,0 +1,122 @@
+"""One flight over UDP, recorded and judged at the end: what `companion fly` and `companion demo` have in common."""
+
+import subprocess
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+
+from companion.cli import show
+from companion.cli.operator import STOPPED, Operator
+from companion.core import Companion, CompanionConfig
+from companion.drivers.flight import fly_guarded
+from companion.drivers.planning import WorkerPlanning
+from companion.drivers.recording import RecordingTap, header, total
+from companion.drivers.tick import Tap
+from companion.errors import CompanionError
+from companion.mission import Mission
+from companion.verdict import FlightMeter, judge
+from logs.errors import RecordingError
+from logs.recorder import Recorder
+from wire.endpoint import Endpoint
+from wire.udp import UdpLink
+
+
+def fly_recorded(
+    mission: Mission,
+    data: bytes,
+    endpoints: Mapping[str, Endpoint],
+    file: Path,
+    config: CompanionConfig,
+    as_json: bool,
+    operator: Operator,
+    watch: "subprocess.Popen[bytes] | None" = None,
+) -> int:
+    """Prepare, fly, close everything properly, judge; returns the exit code."""
+    out = show.console()
+    companion = Companion(mission, config)
+    meter = FlightMeter(companion)
+    with ExitStack() as stack:
+        with _open(endpoints):
+            pass  # a busy port is told before the kernels are compiled
+        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses())
+        stack.callback(planning.close)
+        if not _warm(mission, planning, operator, out):
+            raise CompanionError("stopped before the flight began")
+        links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
+        urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
+        start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
+        recorder = stack.enter_context(Recorder(file, threaded=True, **start))
+        progress = stack.enter_context(show.ProgressLine(companion, meter, out))
+        taps: list[Tap] = [meter, RecordingTap(companion, recorder), progress]
+        stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
+        told = lambda text, trace: out.print(f"{text}\n{trace}", markup=False, soft_wrap=True)  # noqa: E731  once
+        pace = fly_guarded(companion, links, planning, taps, operator=operator, stop=stop, told=told)
+        if not companion.over:
+            companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
+        recorder.metadata("sockets", {key: str(value) for key, value in _sockets(links)})
+        try:
+            recorder.close()
+        except RecordingError as error:  # the flight went on without it; the verdict must not
+            companion.failure = companion.failure or str(error)
+        kernel_drops = sum(link.counters.drops for link in links.values())
+    verdict, counters = judge(companion, meter), recorder.counters
+    losses = {
+        "kernel_drops": kernel_drops,
+        "recorder_drops": counters.dropped_raw + counters.dropped_decoded,
+        "sequence_gaps": sum(s.lost for s in companion.link.framer.senders.values()),
+        "late_ticks": pace.late,
+        "missed_ticks": pace.missed,
+    }
+    numbers = {"recording": str(file), "messages_recorded": total(counters), **losses}
+    if as_json:
+        show.print_json({**show.verdict_json(verdict), **numbers})
+    else:
+        shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in losses.items())
+        details = {"messages": str(total(counters)), "losses": shown, "recording": str(file)}
+        show.print_verdict(verdict, mission.expect, details, Console())
+    return 0 if verdict.ok else 1
+
+
+@contextmanager
+def _open(endpoints: Mapping[str, Endpoint]) -> Iterator[dict[str, UdpLink]]:
+    """All links, closed again at the end."""
+    with ExitStack() as stack:
+        yield {name: stack.enter_context(UdpLink(name, endpoint)) for name, endpoint in endpoints.items()}
+
+
+def _warm(mission: Mission, planning: WorkerPlanning, operator: Operator, out: Console) -> bool:
+    """Wait for the worker's kernels and load what this process needs of them; False when the operator gave up."""
+    with show.working(out, "preparing kernels (compiled the first time)"):
+        while not planning.warmed():
+            if operator.asked:
+                return False
+            time.sleep(0.05)
+        mission.planner_world().distance(np.zeros((1, 3)))
+    return not operator.asked
+
+
+def _sockets(links: Mapping[str, UdpLink]) -> Iterator[tuple[str, int]]:
+    """The links' own counters, for the recording."""
+    for name, link in links.items():
+        for key, value in asdict(link.counters).items():
+            yield f"{name}.{key}", value
+
+
+def _ended(process: "subprocess.Popen[bytes] | None") -> bool:
+    return process is not None and process.poll() is not None
+
+
+def _why_stopped(process: "subprocess.Popen[bytes] | None", file: Path) -> str:
+    if process is not None and process.poll() is not None:
+        return f"the vehicle process ended with exit code {process.returncode}: see {vehicle_log(file)}"
+    return STOPPED
+
+
+def vehicle_log(file: Path) -> Path:
+    """Where the demo keeps what its vehicle printed."""
+    return file.with_suffix(".vehicle.log")
