@@ -396,6 +396,7 @@ class Companion:
             rejected=tuple(t.rejected),
             error_m=self.setpoints.error_m(t.position_n - self.origin_n),
             battery=t.battery,
+            blind=self.seeing.trouble(self._flight_us),
             no_way=self.replanning.trouble or ("" if self.lookout is None else self.lookout.trouble),
         )
 
@@ -420,7 +421,9 @@ class Companion:
             out.extend([] if told is None else [told])
             self._asking.question = None
         nowhere = self.mission.origin is not None and self.telemetry.global_e7 is None
-        told = preparation.look(now_us, ("no global position",) if nowhere else ())
+        blind = self.seeing.trouble(self._flight_us)
+        also = (*(("no global position",) if nowhere else ()), *((blind,) if blind else ()))
+        told = preparation.look(now_us, also)
         out.extend([] if told is None else [told])
         out.extend(self.link.pack(message) for message in preparation.reads(now_us, self.link.target))
         paced = self.clock.known or waited_us > PACE_WAIT_US
@@ -448,13 +451,13 @@ class Companion:
         if self.autopilot.in_control(self.telemetry):
             if self.mission.senses() and now_us - self._entered_us < LISTEN_US:
                 return None  # not everything that moves has told where it is yet
-            crossing = self.replanning.in_the_way(self._flight_us)
+            crossing = self.seeing.trouble(self._flight_us) or self.replanning.in_the_way(self._flight_us)
             if crossing and now_us - self._entered_us < self.config.wait_ready_s * 1e6:
                 if not self._crossing:
                     out.append(Note(Level.INFO, f"waiting on the ground: {crossing}"))
                 self._crossing = crossing
                 return None
-            return self._refused(f"the climb is never clear: {crossing}") if crossing else Event.MODE_CONFIRMED
+            return self._refused(f"the climb is never seen clear: {crossing}") if crossing else Event.MODE_CONFIRMED
         return Event.REFUSED if self._command_failed(now_us, self.autopilot.take_control) else None
 
     def _arming(self, now_us: int, out: list[Output]) -> Event | None:

@@ -50,6 +50,10 @@ class Seeing(Protocol):
         """Once a tick, after all packets of the tick."""
         ...
 
+    def trouble(self, flight_us: int) -> str:
+        """Why it cannot be flown by what is seen; or nothing."""
+        ...
+
 
 class Replanning(Protocol):
     """Looks at what is flown, again and again."""
@@ -104,6 +108,9 @@ class NothingSeen:
 
     def step(self, flight_us: int) -> None:
         pass
+
+    def trouble(self, flight_us: int) -> str:
+        return ""
 
 
 class NothingReplanned:

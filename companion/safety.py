@@ -64,6 +64,7 @@ class Watch:
     rejected: tuple[str, ...] = ()  # what its estimator does not believe
     error_m: float = 0.0  # from the reference
     battery: float | None = None  # what is left, 0..1
+    blind: str = ""  # why it cannot be flown by what is seen
     no_way: str = ""  # why there is nothing safe to fly but a stop
     fence_m: float | None = None  # from the reference to the fence, less what is kept; negative: too near
 
@@ -137,6 +138,10 @@ def _stranded(w: Watch) -> str:
     return f"no safe way for {TROUBLE_S:g} s ({w.no_way}): landing" if w.no_way else ""
 
 
+def _blind_for_long(w: Watch) -> str:
+    return f"nothing seen for {TROUBLE_S:g} s ({w.blind}): landing" if w.blind else ""
+
+
 def _takeoff_late(w: Watch) -> str:
     late = w.phase_s > w.takeoff_s + TAKEOFF_S
     return f"not in the air {w.takeoff_s + TAKEOFF_S:.0f} s after the takeoff began: landing" if late else ""
@@ -172,6 +177,10 @@ def _position_late(w: Watch) -> str:
     return f"no position for {POSITION_HOLD_S:g} s" if w.position_s > POSITION_HOLD_S else ""
 
 
+def _blind(w: Watch) -> str:
+    return w.blind
+
+
 def _doubted(w: Watch) -> str:
     return f"the estimator rejects {' and '.join(w.rejected)}" if w.rejected else ""
 
@@ -195,6 +204,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("no estimate", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _no_estimate),
     Rule("astray", Action.LAND, Event.LAND_ASKED, _MISSION | {Phase.REJOINING}, 1.0, _astray),
     Rule("stranded", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _stranded),
+    Rule("blind for long", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _blind_for_long),
     Rule("takeoff late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.TAKING_OFF}), 0.0, _takeoff_late),
     Rule("rejoining late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.REJOINING}), 0.0, _rejoin_late),
     Rule("battery critical", Action.LAND, Event.LAND_ASKED, _FLOWN, 2.0, _battery_critical),
@@ -203,6 +213,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
     Rule("adrift", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.3, _adrift),
     Rule("position late", Action.HOLD, None, _MISSION, 0.0, _position_late),
+    Rule("blind", Action.HOLD, None, _MISSION, 0.0, _blind),
     Rule("estimate doubted", Action.HOLD, None, _MISSION, 2.0, _doubted),
     Rule("at the fence", Action.HOLD, None, _MISSION, 0.0, _at_the_fence),
 )

@@ -31,7 +31,7 @@ KINDS = ("boxes", "spheres", "cylinders", "walls")
 
 
 def seen_world(mission: Mission) -> Seen | None:
-    """What the vehicle's sensors see of the mission's world, from where it starts; None: there is nothing.
+    """What the vehicle's sensors see of the mission's world, from where it starts; None: it needs none.
 
     Obstacles, hidden ones too, pop-ups and movers. Of a prism they see the sides only; voxels and clouds are not handed
     over.
@@ -43,7 +43,7 @@ def seen_world(mission: Mission) -> Seen | None:
         for p in mission.world.popups
     )
     movers = _movers(mission) if mission.world.movers else None
-    if movers is None and not popups and not any(len(getattr(seen, k)) for k in KINDS):
+    if not mission.senses() and movers is None and not popups and not any(len(getattr(seen, k)) for k in KINDS):
         return None
     return replace(seen, movers=movers, popups=popups)
 

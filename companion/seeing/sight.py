@@ -37,8 +37,14 @@ GROUND = 0.2
 JUMP = 0.5
 """A position that jumps by more than this between two messages has another origin [m]."""
 
+SCANS_HZ = 10.0
+SILENT_SCANS = 6
+"""So many scans in a row that do not come are no loss any more: of a link that loses 30 % it is one row in 1400."""
+SILENT_US = round(1e6 * SILENT_SCANS / SCANS_HZ)
 MOVERS_HZ = 100.0
 """ADSB_VEHICLE tells of one mover after the other [Hz]."""
+
+ORIGIN, LEVEL = np.zeros(3), np.eye(3)
 
 _POSITION = mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED
 _ATTITUDE = mavlink.MAVLINK_MSG_ID_ATTITUDE
@@ -99,13 +105,15 @@ class Sight:
         self._poses: deque[_At] = deque(maxlen=POSES)
         self._newest_ms: dict[int, int] = {}  # by kind
         self._anchor: _Anchor | None = None
+        self._last: dict[tuple[int, int], bytes] = {}  # scan by kind and component
+        self._heard_us: dict[int, int] = {}  # by kind, when something new was seen
         self._placed = False  # the mission frame is known
 
     def streams_hz(self) -> dict[int, float]:
         """What to ask the vehicle for; one that has no such sensor refuses, or stays silent."""
         if not self._looks:
             return {}
-        return {RING: 10.0, _ADSB: MOVERS_HZ, _GLOBAL: 10.0}
+        return {RING: SCANS_HZ, _ADSB: MOVERS_HZ, _GLOBAL: 10.0}
 
     def begin(self) -> None:
         """The mission frame is fixed: what comes from now on counts."""
@@ -119,7 +127,7 @@ class Sight:
         """One packet of the vehicle's system; `pose` is what telemetry says with it. Whether it told of something."""
         flight_us = pose.flight_us
         kind = packet.message_id
-        if not self._placed or not self._looks:
+        if not self._looks or (kind in _SCANS and not self._is_new(flight_us, packet)) or not self._placed:
             return False
         if kind in (_POSITION, _ATTITUDE):
             if packet.component_id == mavlink.MAV_COMP_ID_AUTOPILOT1:
@@ -137,6 +145,28 @@ class Sight:
         """Forget what is too old."""
         self.map.decay(flight_us)
         self.tracks.forget(flight_us)
+
+    def trouble(self, flight_us: int) -> str:
+        """Why it cannot be flown by what is seen; or nothing.
+
+        Where there is a ring all round, only rings count: a single ray does not stand in for it.
+        """
+        if not self._looks:
+            return ""
+        if not self._heard_us:
+            return "no scan from the obstacle sensor yet"
+        last_us = self._heard_us.get(RING, max(self._heard_us.values()))
+        return f"no scan from the obstacle sensor for {SILENT_US / 1e6:g} s" if flight_us - last_us > SILENT_US else ""
+
+    def _is_new(self, flight_us: int, packet: Packet) -> bool:
+        """Whether a scan is not the last one again: some senders repeat it when the sensor says nothing any more."""
+        kind, payload, key = packet.message_id, packet.payload, (packet.message_id, packet.component_id)
+        if self._last.get(key) == payload and stamp_of(kind, payload):
+            return False
+        self._last[key] = payload
+        if scan_of(kind, payload, ORIGIN, LEVEL) is not None:
+            self._heard_us[kind] = flight_us
+        return True
 
     def _place(self, kind: int, ms: int, pose: Pose) -> None:
         poses, newest_ms = self._poses, self._newest_ms

@@ -31,6 +31,7 @@ NAMED = re.compile(
             ".*: (refused|no answer).*",
             "no answer to .*",
             "no safe way for .*",
+            "nothing seen for .*: landing",
         )
     )
 )

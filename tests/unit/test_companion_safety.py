@@ -114,6 +114,10 @@ def no_way(puppet):
     puppet.companion.replanning.trouble = "walled in"
 
 
+def sees_nothing(puppet):
+    puppet.companion.seeing.trouble = lambda flight_us: "no scan from the obstacle sensor for 0.6 s"
+
+
 def stalls(puppet):
     puppet.tick(700_000)
 
@@ -132,6 +136,7 @@ ROWS = [
     ("no estimate", FLYING, says(flags=1024), 0.9, 1.2, Phase.LANDING, "estimator not converged: landing"),
     ("astray", Phase.REJOINING, None, 0.0, 0.0, Phase.LANDING, ""),  # below, by itself
     ("stranded", FLYING, no_way, 29.0, 30.2, Phase.LANDING, r"no safe way for 30 s \(walled in\)"),
+    ("blind for long", FLYING, sees_nothing, 29.0, 30.2, Phase.LANDING, r"nothing seen for 30 s \(no scan"),
     ("takeoff late", Phase.TAKING_OFF, says(landed=GROUND), 33.0, 35.0, Phase.LANDING, "not in the air 34 s"),
     (
         "rejoining late",
@@ -185,6 +190,18 @@ def test_a_row_that_holds_stands_on_the_path_and_goes_on_when_it_is_over(flavour
     puppet.says_position, puppet.ratio = True, 0.1
     puppet.run(0.2)
     assert companion.phase is FLYING
+    assert not companion.itinerary.stopped
+
+
+def test_a_vehicle_whose_sensor_is_silent_stands_on_the_path_until_it_speaks_again():
+    puppet = Puppet("px4", FLYING)
+    sees_nothing(puppet)
+    companion = puppet.run(5.0)
+    assert companion.phase is FLYING
+    assert companion.itinerary.stopped
+    assert "holding: no scan from the obstacle sensor for 0.6 s" in puppet.notes
+    companion.seeing.trouble = lambda flight_us: ""
+    puppet.run(0.2)
     assert not companion.itinerary.stopped
 
 
@@ -245,7 +262,7 @@ def test_every_row_is_in_the_page_and_walked_here():
     page = Path("docs/safety.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([a-z ]+) \|", page, flags=re.MULTILINE)
     assert [name for name in rows if name != "rule"] == [rule.name for rule in SAFETY]
-    walked = {row[0] for row in ROWS} | {"stream lost", "position late", "estimate doubted", "at the fence"}
+    walked = {row[0] for row in ROWS} | {"stream lost", "position late", "blind", "estimate doubted", "at the fence"}
     assert walked == {rule.name for rule in SAFETY}
 
 

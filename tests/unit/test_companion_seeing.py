@@ -311,6 +311,54 @@ def test_no_payload_makes_the_sight_raise_or_place_anything_outside_its_window(k
     assert len(made.tracks) <= MOST_TRACKS
 
 
+def ringed(made, flight_ms, distances=(300,), **more):
+    """A ring that comes at a time."""
+    at = Pose(flight_ms * 1000, np.zeros(3), np.zeros(3), 0.0, 0.0, 0.0)
+    return made.take(packet(ring(distances, **more)), at)
+
+
+def test_a_sensor_that_has_not_spoken_yet_or_not_for_long_is_trouble():
+    made = Sight(parse_mission(MISSION.encode(), "sight.yaml"))  # on the ground, before the mission frame is known
+    assert made.trouble(0) == "no scan from the obstacle sensor yet"
+    ringed(made, 1000, time_usec=1)
+    assert not made.trouble(1_600_000)
+    assert made.trouble(1_600_001) == "no scan from the obstacle sensor for 0.6 s"
+    ringed(made, 1700, time_usec=2)
+    assert not made.trouble(1_700_001)
+
+
+@pytest.mark.parametrize("silent", [{"time_usec": 1}, {"time_usec": 2, "distances": [65535] * 72}])
+def test_a_round_told_twice_and_one_in_which_nothing_is_known_are_silence(silent):
+    made = sight()
+    ringed(made, 1000, time_usec=1)
+    ringed(made, 1700, **silent)
+    assert made.trouble(1_700_001)
+
+
+def test_a_round_of_a_sender_without_a_clock_counts_however_often_it_is_the_same():
+    made = sight()
+    for ms in range(1000, 3000, 100):
+        ringed(made, ms)
+    assert not made.trouble(3_000_000)
+
+
+def test_one_ray_does_not_stand_in_for_a_ring_but_does_where_there_is_none():
+    made = sight()
+    ray = mavlink.MAVLink_distance_sensor_message(5, 20, 1000, 250, 0, 0, 2, 255)
+    made.take(packet(ray), Pose(2_000_000, np.zeros(3), np.zeros(3), 0.0, 0.0, 0.0))
+    assert not made.trouble(2_500_000)
+    ringed(made, 2600, time_usec=1)
+    for ms in range(2600, 4000, 100):
+        ray.time_boot_ms = ms
+        made.take(packet(ray), Pose(ms * 1000, np.zeros(3), np.zeros(3), 0.0, 0.0, 0.0))
+    assert made.trouble(4_000_000)
+
+
+def test_a_mission_that_does_not_sense_misses_no_sensor():
+    made = Sight(parse_mission(MISSION.replace("use: true", "use: false").encode(), "sight.yaml"))
+    assert not made.trouble(10**9)
+
+
 def test_nothing_counts_before_the_mission_frame_is_known():
     made = Sight(parse_mission(MISSION.encode(), "sight.yaml"))
     made.take(position(0, 0.0, 0.0, -2.0), pose(0.0, 0.0, -2.0))
