@@ -6,6 +6,9 @@ where this file ends: the vehicle lands by itself. Everything here is in the mis
 Orders in flight (`order`) never jump. `hold` slows the walk to rest on the very path that is proved clear, `resume`
 lets it go on. `goto` and `return` come to rest likewise and then fly an errand: one leg, planned from there, while the
 mission waits below it; `resume` first plans the way back to where the mission was left.
+
+A detour is flown by what is seen, by whoever plans again, to where it should stand: out of the way of what comes at a
+vehicle at rest and back, or back to where the mission waits. Whatever is flown otherwise waits below it.
 """
 
 import math
@@ -13,7 +16,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from companion.legs import Leg, circle_flaw, column_flaw, lay_out, place, radius_of, vector
+from companion.legs import Leg, circle_flaw, column_flaw, lay_out, place, radius_of, rest_at, vector
 from companion.mission import Mission
 from companion.pace import paced
 from companion.profile import Circle, Turn
@@ -26,8 +29,12 @@ SPOOL_UP_S = 1.0
 """Between the word that it is armed and the first climb: PX4 spools its motors up for COM_SPOOLUP_TIME, 1 s."""
 ERRANDS = 1_000_000
 """Plans of errands are numbered from here, those of steps by their step."""
+DETOURS = 3_000_000
+"""Their goals are numbered from here; nobody plans them on the ground."""
 HERE = 1e-3
 """A place nearer than this needs no plan [m]."""
+AT_REST = 1e-3
+"""[m/s]"""
 
 
 @dataclass(slots=True)
@@ -50,6 +57,7 @@ class Itinerary:
     _start: FloatArray = field(init=False)  # (3,) where the flight begins
     _main: Walk = field(init=False)
     _errand: Walk | None = None  # what is flown instead of the mission
+    _detour: Walk | None = None  # flown instead of either, until it is where that stands
     _paused: bool = False
     _next: Order | None = None  # to be carried out as soon as it is at rest
     _asked: PlanWanted | None = None  # of an errand
@@ -128,8 +136,10 @@ class Itinerary:
     def advance(self, now_us: int) -> bool:
         """Move on from every step whose time is over; True when the step changed."""
         self._follow_orders(now_us)
+        if self._detour is not None and self._detour.seconds(now_us) >= self._detour.duration():
+            self._come_back(now_us)
         before, walk = self._main.index, self._main
-        while self._errand is None and walk.entered_us is not None and self.step.land is None:
+        while self._top is walk and walk.entered_us is not None and self.step.land is None:
             duration = walk.duration()
             if math.isinf(duration):
                 break
@@ -145,14 +155,14 @@ class Itinerary:
 
     def finished(self) -> bool:
         """Whether only landing is left."""
-        return self._landing or (self._errand is None and self.step.land is not None)
+        return self._detour is None and (self._landing or (self._errand is None and self.step.land is not None))
 
     def reference(self, now_us: int) -> Reference:
         """Where the vehicle should be at `now_us`."""
-        walk = self._top
+        walk, turn = self._top, self._below.turn
         time, seconds = walk.pace.at(now_us), walk.seconds(now_us)
         state = paced(walk.motion(seconds), time)
-        yaw = self.yaw if walk.turn is None else walk.turn.yaw(seconds)
+        yaw = self.yaw if turn is None else turn.yaw(self._below.seconds(now_us))
         return Reference(state.position, state.velocity, state.acceleration, yaw)
 
     def remaining(self, position_m: FloatArray) -> float:
@@ -181,7 +191,9 @@ class Itinerary:
         """The planned trajectory that is flown at its own pace, if one is."""
         walk, seconds = self._top, self._top.seconds(now_us)
         planned = walk.leg.planned
-        if planned is None or walk.entered_us is None or not walk.pace.running(now_us) or self._paused:
+        if planned is None or walk.entered_us is None or not walk.pace.running(now_us):
+            return None
+        if self._paused and self._detour is None:
             return None
         if seconds < 0.0 or (seconds >= planned.duration and not walk.open_ended):
             return None
@@ -212,6 +224,40 @@ class Itinerary:
         if walk.entered_us is None or not walk.leg.paths or here < begun or walk.open_ended:
             return None
         return np.array([walk.motion(here + every_s * k).position for k in range(round(seconds / every_s) + 1)])
+
+    def leads_on(self, now_us: int) -> bool:
+        """Whether a leg that is planned again and again is under way, or will be as soon as it is not `stopped`."""
+        walk, leg = self._top, self._top.leg
+        if leg.planned is None or leg.wanted is None or leg.wanted.via_m:
+            return False
+        waits = self._detour is None and (self._paused or self.blocked)
+        return not waits and (walk.open_ended or walk.seconds(now_us) < leg.planned.duration)
+
+    @property
+    def away(self) -> bool:
+        """Whether it is on a detour."""
+        return self._detour is not None
+
+    def standing(self, now_us: int) -> FloatArray | None:
+        """Where it stands (3,), to go on from there when the time comes; None while it moves, or is told to plan."""
+        walk = self._below
+        if self._detour is not None or self.stopped or walk.entered_us is None or self._asked is not None:
+            return None
+        ways = sum(float(path.duration) for path in walk.leg.paths)
+        if not walk.pace.still(now_us) and (walk.open_ended or walk.seconds(now_us) < ways):
+            return None
+        return self._waiting_at(now_us)
+
+    def detour(self, now_us: int, here: FloatArray) -> bool:
+        """From rest at `here` (3,) to where it should stand, by what is seen; False as long as that still moves."""
+        walk = self._below
+        state = paced(walk.motion(walk.seconds(now_us)), walk.pace.at(now_us))
+        if float(np.linalg.norm(state.velocity)) > AT_REST or self._asked is not None:
+            return False
+        self._requests += 1
+        wanted = self._wanted(DETOURS + self._requests, here, state.position)
+        self._detour = Walk([Leg(self.step, state.position, wanted, rest_at(here))], entered_us=now_us, open_ended=True)
+        return True
 
     def leave_out_via(self) -> bool:
         """Let the leg under way lead to its goal alone, however it gets there; False where it has no plan."""
@@ -265,7 +311,24 @@ class Itinerary:
 
     @property
     def _top(self) -> Walk:
+        """What is flown."""
+        return self._below if self._detour is None else self._detour
+
+    @property
+    def _below(self) -> Walk:
+        """What would be flown without a detour."""
         return self._main if self._errand is None else self._errand
+
+    def _waiting_at(self, now_us: int) -> FloatArray:
+        return self._below.motion(self._below.seconds(now_us)).position
+
+    def _come_back(self, now_us: int) -> None:
+        """A detour is where the rest stands: a step whose time has passed meanwhile ends now, and not before."""
+        self._detour = None
+        walk = self._main
+        if self._errand is None and walk.entered_us is not None:
+            late = walk.pace.at(now_us).us - (walk.entered_us + walk.duration() * 1e6)
+            walk.entered_us += max(0, math.ceil(late)) if math.isfinite(late) else 0
 
     def _enter(self) -> None:
         step, walk = self.step, self._main
@@ -298,12 +361,16 @@ class Itinerary:
 
     def _follow_orders(self, now_us: int) -> None:
         """Bring the pace to what is ordered, and begin what waits for rest."""
-        walk, paused = self._top, self._paused or self.stopped or self.blocked
+        away, walk = self._detour is not None, self._top
+        paused = self.stopped or (not away and (self._paused or self.blocked))
         if walk.entered_us is None:
             return
         changes = walk.pace.running(now_us) if paused else walk.pace.still(now_us)
         walk.patient_us = walk.patient_us if changes else None
-        if self._arrived(now_us) and self._purpose is not None and not paused:
+        if away:
+            if changes:
+                walk.change_pace(now_us, self._limits(walk))
+        elif self._arrived(now_us) and self._purpose is not None and not paused:
             order, self._purpose = self._purpose, None
             self._arrive(now_us, order)
         elif changes:
@@ -328,8 +395,12 @@ class Itinerary:
             self._arrive(now_us, order)
             return
         self._requests += 1
-        self._asked = PlanWanted(
-            request_id=ERRANDS + self._requests,
+        self._asked = self._wanted(ERRANDS + self._requests, here, goal)
+        self._said.append(self._asked)
+
+    def _wanted(self, request_id: int, here: FloatArray, goal: FloatArray) -> PlanWanted:
+        return PlanWanted(
+            request_id=request_id,
             start_m=vector(here),
             goal_m=vector(goal),
             limits=self.mission.planner_limits(),
@@ -337,7 +408,6 @@ class Itinerary:
             seed=self.seed,
             method=self.mission.method,
         )
-        self._said.append(self._asked)
 
     def _arrive(self, now_us: int, order: Order) -> None:
         """An errand is where it was sent."""

@@ -18,6 +18,9 @@ NO_WAY = 1e-6
 SAME = 1e-3
 """A place nearer than this to where one is already needs no way to it [m]."""
 
+REST_S = 0.1
+"""How long a trajectory at rest lasts [s]."""
+
 Path = StraightMove | Circle | Trajectory
 
 
@@ -152,6 +155,11 @@ def circle_flaw(world: World, circle: Circle, radius: float) -> str:
 def place(point: FloatArray) -> str:
     """A point of the mission frame, for people."""
     return f"north {point[0]:g}, east {point[1]:g}, altitude {-point[2] + 0.0:g}"
+
+
+def rest_at(place: FloatArray) -> Trajectory:
+    """A moment at rest at a place (3,): what planning in flight may begin with."""
+    return Trajectory(np.tile(place, (4, 1)), REST_S * np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]))
 
 
 def vector(a: FloatArray) -> Vector:

@@ -1,8 +1,9 @@
-"""A look ahead on what is flown as it was planned: circles, and legs with points on the way.
+"""A look ahead on what is flown as it was planned: circles, legs with points on the way, and standing.
 
-`replanning` looks after legs to one goal. These two it cannot plan again, so the way ahead is held against what is
-seen: a circle is stopped on before it, until it is gone; of a leg the points on the way are left out, and then it is a
-leg to one goal.
+`replanning` looks after legs to one goal. These it cannot plan again, so the way ahead is held against what is seen:
+a circle is stopped on before it, until it is gone; of a leg the points on the way are left out, and then it is a leg to
+one goal. A vehicle that stands where something comes begins a detour (`itinerary`), which `replanning` looks after:
+out of the way on what is proved, and back.
 """
 
 import numpy as np
@@ -41,11 +42,16 @@ class Lookout:
         if flight_us < self._due_us:
             return []
         self._due_us = flight_us + PERIOD_US
+        if self._itinerary.away:
+            return []  # that is planned again and again
         aim, points = self._itinerary.aim(), self._itinerary.ahead(flight_us, AHEAD_S, EVERY_S)
         in_the_way = points is not None and self._touched(flight_us, points)
         step = f"step {self._itinerary.index}"
         if in_the_way and aim is not None and aim.via_m and self._itinerary.leave_out_via():
             return [Note(Level.WARNING, f"{step}: something is in the way: the points on the way are left out")]
+        place = self._itinerary.standing(flight_us)
+        if place is not None and self._touched(flight_us, np.tile(place, (round(AHEAD_S / EVERY_S) + 1, 1))):
+            self._itinerary.detour(flight_us, place)
         if in_the_way and self._since_us is None:
             self._since_us, self._itinerary.blocked = flight_us, True
             return [Note(Level.WARNING, f"{step}: something is in the way: stopping before it")]
