@@ -482,14 +482,20 @@ class Companion:
             if climbing or repeat_refused:  # it climbs already, be the answer to the first one lost
                 self._asking.question = None
             return Event.REFUSED if self._command_failed(now_us, None) else None
-        self.itinerary.advance(self._flight_us)
-        return Event.AIRBORNE if self.itinerary.index > 0 and self.autopilot.airborne(self.telemetry) else None
+        self._heed_hold(out)
+        self.itinerary.stopped = bool(self.safety.hold)
+        at_the_top = self.itinerary.climb(self._flight_us)
+        return Event.AIRBORNE if at_the_top and self.autopilot.airborne(self.telemetry) else None
 
-    def _flying(self, now_us: int, out: list[Output]) -> Event | None:
+    def _heed_hold(self, out: list[Output]) -> None:
+        """Tell why the mission's clock has to stand, and that it runs again."""
         if self.safety.hold != self._holding:
             text = f"holding: {self.safety.hold}" if self.safety.hold else f"no longer holding: {self._holding}"
             self._holding = self.safety.hold
             out.append(Note(Level.WARNING, text))
+
+    def _flying(self, now_us: int, out: list[Output]) -> Event | None:
+        self._heed_hold(out)
         self.itinerary.stopped = bool(self.safety.hold) or self.rejoin.under_way(self._flight_us)
         self.itinerary.heed(self.telemetry.battery)
         if self.itinerary.advance(self._flight_us):

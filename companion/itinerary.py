@@ -133,6 +133,14 @@ class Itinerary:
         self._main.index, self._main.entered_us = 1, now_us
         self._enter()
 
+    def climb(self, now_us: int) -> bool:
+        """Walk the takeoff, and wait at its top until `airborne`: whether it is there."""
+        self._follow_orders(now_us)
+        walk = self._main
+        if walk.entered_us is None or walk.index > 0:
+            return walk.index > 0
+        return walk.pace.at(now_us).us >= walk.entered_us + round(walk.duration() * 1e6)
+
     def advance(self, now_us: int) -> bool:
         """Move on from every step whose time is over; True when the step changed."""
         self._follow_orders(now_us)

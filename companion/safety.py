@@ -83,6 +83,8 @@ class Rule:
 
 _FLOWN = frozenset({Phase.TAKING_OFF, Phase.FLYING, Phase.REJOINING})
 _MISSION = frozenset({Phase.FLYING})
+_WALKED = _MISSION | {Phase.TAKING_OFF}
+"""Where the mission's clock runs: a climb by setpoints is walked, too."""
 
 
 def _rebooted(w: Watch) -> str:
@@ -202,20 +204,20 @@ SAFETY: tuple[Rule, ...] = (
     Rule("silent", Action.WAIT, Event.VEHICLE_SILENT, _FLOWN, 0.0, _silent),
     Rule("no position", Action.LAND, Event.LAND_ASKED, _FLOWN, 0.5, _no_position),  # not before one can have arrived
     Rule("no estimate", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _no_estimate),
-    Rule("astray", Action.LAND, Event.LAND_ASKED, _MISSION | {Phase.REJOINING}, 1.0, _astray),
+    Rule("astray", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _astray),
     Rule("stranded", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _stranded),
     Rule("blind for long", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _blind_for_long),
     Rule("takeoff late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.TAKING_OFF}), 0.0, _takeoff_late),
     Rule("rejoining late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.REJOINING}), 0.0, _rejoin_late),
     Rule("battery critical", Action.LAND, Event.LAND_ASKED, _FLOWN, 2.0, _battery_critical),
     Rule("battery low", Action.RETURN, Event.LAND_ASKED, _MISSION, 2.0, _battery_low),
-    Rule("stream lost", Action.REJOIN, Event.INTERRUPTED, frozenset({Phase.TAKING_OFF}) | _MISSION, 0.0, _stream_lost),
+    Rule("stream lost", Action.REJOIN, Event.INTERRUPTED, _WALKED, 0.0, _stream_lost),
     Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
     Rule("adrift", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.3, _adrift),
-    Rule("position late", Action.HOLD, None, _MISSION, 0.0, _position_late),
+    Rule("position late", Action.HOLD, None, _WALKED, 0.0, _position_late),
     Rule("blind", Action.HOLD, None, _MISSION, 0.0, _blind),
-    Rule("estimate doubted", Action.HOLD, None, _MISSION, 2.0, _doubted),
-    Rule("at the fence", Action.HOLD, None, _MISSION, 0.0, _at_the_fence),
+    Rule("estimate doubted", Action.HOLD, None, _WALKED, 2.0, _doubted),
+    Rule("at the fence", Action.HOLD, None, _WALKED, 0.0, _at_the_fence),
 )
 
 

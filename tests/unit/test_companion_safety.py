@@ -11,7 +11,7 @@ from companion.core import Companion, CompanionConfig
 from companion.missionfile import parse_mission
 from companion.phases import TRANSITIONS, Event, Phase
 from companion.safety import SAFETY, Action
-from companion.seam import Order
+from companion.seam import Order, Reference
 from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Datagram
 from wire.dialect import mavlink
@@ -35,7 +35,9 @@ GROUND, AIR = mavlink.MAV_LANDED_STATE_ON_GROUND, mavlink.MAV_LANDED_STATE_IN_AI
 class Puppet:
     """A vehicle that says what it is told to, to a companion that is in the phase it is put into."""
 
-    def __init__(self, flavour, phase):
+    def __init__(self, flavour, phase, mission=MISSION):
+        self.sent, self.references, self.answers, self._owed = [], [], {}, []
+        self.silent_on, self.decoder = (), mavlink.MAVLink(None)
         self.flavour, self.mav = flavour, mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
         self.mode = self.intended = LAND[flavour] if phase is Phase.LANDING else OURS[flavour]
         self.armed, self.status, self.battery = True, 4, 90
@@ -43,7 +45,7 @@ class Puppet:
         self.flags, self.ratio, self.at, self.boot_ms = 831, 0.1, None, 100_000
         self.says_position = self.says_anything = True
         self.now_us = 1_000_000
-        self.companion = Companion(MISSION, CompanionConfig())
+        self.companion = Companion(mission, CompanionConfig())
         self.companion.autopilot = AUTOPILOTS[NUMBER[flavour]]
         self.notes = []
         self.companion.itinerary.begin(0) if phase is Phase.TAKING_OFF else self.companion.itinerary.airborne(0)
@@ -80,13 +82,32 @@ class Puppet:
             here = self.companion.itinerary.reference(self.now_us).position_m if self.at is None else self.at
             out.append(m.MAVLink_local_position_ned_message(self.boot_ms, *here, 0, 0, 0))
             out.append(m.MAVLink_attitude_message(self.boot_ms, 0, 0, 0, 0, 0, 0))
+        out, self._owed = [x for x in out + self._owed if x.get_type() not in self.silent_on], []
         return [Datagram(VEHICLE_LINK, bytes(x.pack(self.mav)), ("vehicle", 1)) for x in out]
+
+    def hear(self, outputs):
+        """Keep what is sent to it; a command whose answer is known (`answers`, by its number) is acknowledged."""
+        for output in outputs:
+            if isinstance(output, Reference):
+                self.references.append(output)
+            elif isinstance(output, Datagram) and output.link == VEHICLE_LINK:
+                message = self.decoder.decode(bytearray(output.data))
+                if message.get_type() == "COMMAND_LONG":
+                    self.sent.append((self.now_us, message.command, message.param1, message.param2, message.param3))
+                    if message.command in self.answers or None in self.answers:
+                        result = self.answers.get(message.command, self.answers.get(None))
+                        ack = mavlink.MAVLink_command_ack_message(message.command, result, 0, 0, 1, 191)
+                        self._owed.append(ack)
+
+    def modes_asked(self, since_us=0):
+        return [tuple(int(v) for v in sent[3:]) for sent in self.sent if sent[1] == 176 and sent[0] >= since_us]
 
     def tick(self, period_us=20_000):
         self.now_us += period_us
         self.boot_ms += period_us // 1000
         outputs = self.companion.step(self.now_us, self.said())
         self.notes += [o.text for o in outputs if hasattr(o, "text")]
+        self.hear(outputs)
 
     def run(self, seconds):
         for _ in range(round(seconds * 50)):
@@ -335,3 +356,57 @@ def test_setpoints_stay_where_a_landing_begins_that_comes_from_no_path():
     assert puppet.companion.obey(puppet.now_us, Order("land")) == ""
     assert puppet.run(0.4).phase is Phase.LANDING
     assert np.array_equal(puppet.companion.setpoints.reference.position_m, held)
+
+
+LONG_WAY = parse_mission(
+    b"""\
+name: over and away
+vehicle: {start: {north: 2, east: 2}}
+world: {bounds: {north: [0, 20], east: [0, 20], altitude: [0, 6]}}
+steps: [{takeoff: {altitude: 1.5}}, {hold: {seconds: 3}}, {goto: {north: 15, east: 15, altitude: 1.5}}, land]
+""",
+    "away.yaml",
+)
+
+
+def test_a_vehicle_that_does_not_lift_gets_setpoints_above_its_place_alone_and_is_landed():
+    puppet = Puppet("px4", Phase.TAKING_OFF, LONG_WAY)
+    puppet.at = np.array([2.0, 2.0, 0.0])
+    puppet.run(40.0)
+    assert puppet.companion.phase is Phase.LANDING
+    assert "not in the air 33 s after the takeoff began" in puppet.companion.failure
+    places = np.array([reference.position_m for reference in puppet.references])
+    assert np.ptp(places[:, :2], axis=0).max() == 0.0
+    assert places[:, 2].min() == pytest.approx(-1.5)
+
+
+def test_a_climb_that_is_told_to_be_over_late_goes_on_from_its_top():
+    puppet = Puppet("px4", Phase.TAKING_OFF, LONG_WAY)
+    puppet.run(20.0)
+    assert puppet.companion.phase is Phase.TAKING_OFF
+    puppet.landed = AIR
+    puppet.run(0.1)
+    assert puppet.companion.phase is FLYING
+    assert puppet.companion.itinerary.index == 1
+    places = np.array([reference.position_m for reference in puppet.references])
+    assert np.abs(np.diff(places, axis=0)).max() < 0.05
+
+
+def test_a_vehicle_that_does_not_follow_the_climb_is_landed_after_a_second():
+    puppet = Puppet("px4", Phase.TAKING_OFF)
+    puppet.run(4.0)
+    strays(2.5)(puppet)
+    assert puppet.run(0.8).phase is Phase.TAKING_OFF
+    assert puppet.run(0.5).phase is Phase.LANDING
+
+
+def test_a_climb_stands_while_the_position_is_late():
+    puppet = Puppet("px4", Phase.TAKING_OFF)
+    puppet.run(1.0)
+    puppet.says_position = False
+    puppet.run(1.5)
+    held = puppet.companion.setpoints.reference.position_m
+    puppet.run(0.5)
+    assert "holding: no position for 0.5 s" in puppet.notes
+    assert np.array_equal(puppet.companion.setpoints.reference.position_m, held)
+    assert held[2] > -1.9
