@@ -377,6 +377,10 @@ class Companion:
             takeoff_s=self._climb_s,
             silent_s=(now_us - (self.link.heard_us or 0)) / 1e6,
             position_s=(now_us - (t.position_us or 0)) / 1e6,
+            heartbeat_s=(now_us - (t.heartbeat_us or 0)) / 1e6,
+            mode_s=(now_us - t.mode_told_us) / 1e6,
+            estimator_s=(now_us - (t.estimator_us or 0)) / 1e6,
+            held=self.safety.hold,
             tick_gap_s=(now_us - (self._last_us or now_us)) / 1e6,
             rebooted=t.boots != self._boots or booting,
             disarmed=not t.armed and (t.arming_is_sure or (on_ground and self.phase not in MOVING)),
@@ -544,7 +548,8 @@ class Companion:
         return isinstance(self.replanning, Replanned) and (leg or away_m >= SAME_PLACE)
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
-        command, late = self._asking.question, self._asking.no_effect(now_us) and not self._came_down
+        command, told = self._asking.question, now_us - (self.telemetry.heartbeat_us or 0) <= VEHICLE_SILENT_US
+        late = self._asking.no_effect(now_us) and told and not self._came_down  # untold it may be a pilot's
         if command is not None and (command.outcome in (Outcome.REFUSED, Outcome.UNANSWERED) or late):
             why = "accepted, but it does not land" if late else command.failure()
             out.append(Note(Level.ERROR, f"{why}; asking again"))

@@ -15,6 +15,8 @@ from companion.phases import Event, Phase
 SILENT_S = 3.0
 GIVE_UP_S = 60.0
 POSITION_HOLD_S, POSITION_LAND_S = 0.5, 3.0
+HEARTBEAT_S, MODE_S = 2.0, 30.0
+ESTIMATOR_S = 1.5
 HEARD_S = 1.5
 """A vehicle heard within this is there: its HEARTBEAT comes once a second."""
 ADRIFT_M, ASTRAY_M = 1.0, 2.0
@@ -47,6 +49,9 @@ class Watch:
     takeoff_s: float = 0.0  # what the climb may take
     silent_s: float = 0.0  # since anything was heard of the vehicle
     position_s: float = 0.0  # since its last position
+    heartbeat_s: float = 0.0  # since its last HEARTBEAT
+    mode_s: float = 0.0  # since it last said in which mode it is, by HEARTBEAT or CURRENT_MODE
+    estimator_s: float = 0.0  # since it last said how good its estimate is
     tick_gap_s: float = 0.02  # since our own tick before
     rebooted: bool = False
     disarmed: bool = False  # surely
@@ -66,6 +71,7 @@ class Watch:
     battery: float | None = None  # what is left, 0..1
     blind: str = ""  # why it cannot be flown by what is seen
     no_way: str = ""  # why there is nothing safe to fly but a stop
+    held: str = ""  # why the mission's clock had to stand in the tick before
     fence_m: float | None = None  # from the reference to the fence, less what is kept; negative: too near
 
 
@@ -109,6 +115,12 @@ def _taken(w: Watch) -> str:
     return f"{w.failsafe or f'the vehicle is in {w.mode} now'}{w.last_text}; it is not fought for"
 
 
+def _pilot_unknown(w: Watch) -> str:
+    if w.mode_s <= MODE_S or w.silent_s >= HEARD_S:
+        return ""
+    return f"no HEARTBEAT from the vehicle for {MODE_S:g} s: who flies it is not known; it is not fought for"
+
+
 def _stopped_landing(w: Watch) -> str:
     if w.comes_down or w.on_ground or not w.mode_sure or (not w.came_down and w.in_control):
         return ""
@@ -142,6 +154,10 @@ def _stranded(w: Watch) -> str:
 
 def _blind_for_long(w: Watch) -> str:
     return f"nothing seen for {TROUBLE_S:g} s ({w.blind}): landing" if w.blind else ""
+
+
+def _held_for_long(w: Watch) -> str:
+    return f"held for {TROUBLE_S:g} s ({w.held}): landing" if w.held else ""
 
 
 def _takeoff_late(w: Watch) -> str:
@@ -183,6 +199,16 @@ def _blind(w: Watch) -> str:
     return w.blind
 
 
+def _no_heartbeat(w: Watch) -> str:
+    late = w.heartbeat_s > HEARTBEAT_S and w.silent_s < HEARD_S
+    return f"no HEARTBEAT for {SILENT_S:g} s, so its mode may be another's" if late else ""
+
+
+def _unknown(w: Watch) -> str:
+    late = w.estimator_s > ESTIMATOR_S and w.silent_s < HEARD_S
+    return "no word of the estimator for 2 s" if late else ""
+
+
 def _doubted(w: Watch) -> str:
     return f"the estimator rejects {' and '.join(w.rejected)}" if w.rejected else ""
 
@@ -200,6 +226,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("landed", Action.FAIL, Event.DISARMED, _LANDING, 0.0, _landed),
     Rule("gone", Action.FAIL, Event.GIVEN_UP, frozenset({Phase.LINK_LOST}) | _LANDING | _HANDED, 0.0, _gone),
     Rule("mode taken", Action.HAND_OVER, Event.MODE_LOST, _FLOWN, 0.0, _taken),
+    Rule("pilot unknown", Action.HAND_OVER, Event.MODE_LOST, _FLOWN, 0.0, _pilot_unknown),
     Rule("landing stopped", Action.HAND_OVER, Event.MODE_LOST, _LANDING, 0.0, _stopped_landing),
     Rule("silent", Action.WAIT, Event.VEHICLE_SILENT, _FLOWN, 0.0, _silent),
     Rule("no position", Action.LAND, Event.LAND_ASKED, _FLOWN, 0.5, _no_position),  # not before one can have arrived
@@ -207,6 +234,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("astray", Action.LAND, Event.LAND_ASKED, _FLOWN, 1.0, _astray),
     Rule("stranded", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _stranded),
     Rule("blind for long", Action.LAND, Event.LAND_ASKED, _MISSION, TROUBLE_S, _blind_for_long),
+    Rule("held for long", Action.LAND, Event.LAND_ASKED, _WALKED, TROUBLE_S, _held_for_long),
     Rule("takeoff late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.TAKING_OFF}), 0.0, _takeoff_late),
     Rule("rejoining late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.REJOINING}), 0.0, _rejoin_late),
     Rule("battery critical", Action.LAND, Event.LAND_ASKED, _FLOWN, 2.0, _battery_critical),
@@ -216,6 +244,8 @@ SAFETY: tuple[Rule, ...] = (
     Rule("adrift", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.3, _adrift),
     Rule("position late", Action.HOLD, None, _WALKED, 0.0, _position_late),
     Rule("blind", Action.HOLD, None, _MISSION, 0.0, _blind),
+    Rule("no heartbeat", Action.HOLD, None, _WALKED, SILENT_S - HEARTBEAT_S, _no_heartbeat),
+    Rule("estimate unknown", Action.HOLD, None, _WALKED, 0.5, _unknown),
     Rule("estimate doubted", Action.HOLD, None, _WALKED, 2.0, _doubted),
     Rule("at the fence", Action.HOLD, None, _WALKED, 0.0, _at_the_fence),
 )

@@ -129,6 +129,11 @@ class Telemetry:
         return self.mode_for_us >= SURE_US
 
     @property
+    def mode_told_us(self) -> int:
+        """When it last said in which mode it is."""
+        return max(self._mode_us, 0)
+
+    @property
     def arming_is_sure(self) -> bool:
         """The same of `armed`."""
         return self.armed_for_us >= SURE_US

@@ -109,11 +109,14 @@ def stream_requests(rates_hz: dict[int, float]) -> list[Command]:
 
 
 POSITION_FRESH_US = 500_000
+HEARTBEAT_FRESH_US = 3_000_000
 
 
 def common_reasons(now_us: int, telemetry: Telemetry) -> list[str]:
     """Why any autopilot could not be armed yet, as far as MAVLink says it for all of them."""
     reasons = []
+    if telemetry.heartbeat_us is not None and now_us - telemetry.heartbeat_us > HEARTBEAT_FRESH_US:
+        reasons.append("no HEARTBEAT")
     if telemetry.position_us is None or now_us - telemetry.position_us > POSITION_FRESH_US:
         reasons.append("no local position")
     if telemetry.attitude_us is None:

@@ -158,6 +158,7 @@ ROWS = [
     ("astray", Phase.REJOINING, None, 0.0, 0.0, Phase.LANDING, ""),  # below, by itself
     ("stranded", FLYING, no_way, 29.0, 30.2, Phase.LANDING, r"no safe way for 30 s \(walled in\)"),
     ("blind for long", FLYING, sees_nothing, 29.0, 30.2, Phase.LANDING, r"nothing seen for 30 s \(no scan"),
+    ("held for long", FLYING, says(ratio=1.5), 31.8, 32.3, Phase.LANDING, r"held for 30 s \(the estimator rejects vel"),
     ("takeoff late", Phase.TAKING_OFF, says(landed=GROUND), 33.0, 35.0, Phase.LANDING, "not in the air 34 s"),
     (
         "rejoining late",
@@ -198,8 +199,10 @@ def test_a_row_of_the_table_leads_where_it_says_and_not_before(
     [
         (says(says_position=False), 0.6, "no position for 0.5 s"),
         (says(ratio=1.5), 2.1, "the estimator rejects velocity"),
+        (says(silent_on=("HEARTBEAT",)), 3.1, "no HEARTBEAT for 3 s, so its mode may be another's"),
+        (says(silent_on=("ESTIMATOR_STATUS", "EKF_STATUS_REPORT")), 2.1, "no word of the estimator for 2 s"),
     ],
-    ids=["position late", "estimate doubted"],
+    ids=["position late", "estimate doubted", "no heartbeat", "estimate unknown"],
 )
 def test_a_row_that_holds_stands_on_the_path_and_goes_on_when_it_is_over(flavour, happens, after_s, why):
     puppet = Puppet(flavour, FLYING)
@@ -208,7 +211,7 @@ def test_a_row_that_holds_stands_on_the_path_and_goes_on_when_it_is_over(flavour
     assert companion.phase is FLYING
     assert companion.itinerary.stopped
     assert f"holding: {why}" in puppet.notes
-    puppet.says_position, puppet.ratio = True, 0.1
+    puppet.says_position, puppet.ratio, puppet.silent_on = True, 0.1, ()
     puppet.run(0.2)
     assert companion.phase is FLYING
     assert not companion.itinerary.stopped
@@ -283,7 +286,16 @@ def test_every_row_is_in_the_page_and_walked_here():
     page = Path("docs/safety.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([a-z ]+) \|", page, flags=re.MULTILINE)
     assert [name for name in rows if name != "rule"] == [rule.name for rule in SAFETY]
-    walked = {row[0] for row in ROWS} | {"stream lost", "position late", "blind", "estimate doubted", "at the fence"}
+    walked = {row[0] for row in ROWS} | {
+        "stream lost",
+        "pilot unknown",
+        "position late",
+        "blind",
+        "no heartbeat",
+        "estimate unknown",
+        "estimate doubted",
+        "at the fence",
+    }
     assert walked == {rule.name for rule in SAFETY}
 
 
@@ -410,3 +422,46 @@ def test_a_climb_stands_while_the_position_is_late():
     assert "holding: no position for 0.5 s" in puppet.notes
     assert np.array_equal(puppet.companion.setpoints.reference.position_m, held)
     assert held[2] > -1.9
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_whose_mode_is_told_no_more_is_held_then_left_alone_with_no_mode_asked_for(flavour):
+    puppet = Puppet(flavour, FLYING)
+    puppet.silent_on = ("HEARTBEAT", "CURRENT_MODE")
+    assert puppet.run(2.9).phase is FLYING
+    assert not puppet.companion.itinerary.stopped
+    assert puppet.run(0.2).itinerary.stopped
+    assert puppet.run(26.0).phase is FLYING
+    puppet.mode = puppet.intended = PILOTS[flavour]
+    assert puppet.run(1.2).phase is Phase.HANDED_OVER
+    puppet.run(20.0)
+    assert puppet.modes_asked() == []
+    assert "no HEARTBEAT from the vehicle for 30 s: who flies it is not known" in puppet.companion.failure
+
+
+def test_a_px4_that_still_tells_its_mode_is_landed_when_its_heartbeat_stays_away():
+    puppet = Puppet("px4", FLYING)
+    puppet.silent_on = ("HEARTBEAT",)
+    assert puppet.run(32.0).phase is FLYING
+    assert puppet.run(1.5).phase is Phase.LANDING
+    assert "held for 30 s (no HEARTBEAT" in puppet.companion.failure
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_an_estimator_of_which_nothing_is_told_is_not_flown_by_for_ever(flavour):
+    puppet = Puppet(flavour, FLYING)
+    puppet.silent_on = ("ESTIMATOR_STATUS", "EKF_STATUS_REPORT")
+    assert puppet.run(31.5).phase is FLYING
+    assert puppet.run(1.0).phase is Phase.LANDING
+    assert "held for 30 s (no word of the estimator for 2 s): landing" in puppet.companion.failure
+
+
+def test_a_landing_is_not_asked_for_again_while_no_heartbeat_tells_whose_vehicle_it_is():
+    puppet = Puppet("ardupilot", FLYING)
+    puppet.answers[176] = 0
+    puppet.companion.obey(puppet.now_us, Order("land"))
+    puppet.silent_on = ("HEARTBEAT",)
+    puppet.run(5.0)
+    asked = len(puppet.modes_asked())
+    puppet.run(20.0)
+    assert len(puppet.modes_asked()) == asked <= 2
