@@ -30,6 +30,7 @@ from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome
 from companion.fleet.member import FLEET_LINK, Member
 from companion.geodesy import Geodetic, to_local
+from companion.ground.progress import Course
 from companion.ground.router import Router
 from companion.ground.station import GroundStation
 from companion.hooks import Ground, NobodyAsks, NothingReplanned, NothingSeen, Pose, Replanning, Seeing
@@ -121,7 +122,8 @@ class Companion:
         self.ground: Ground = NobodyAsks()
         self.lookout: Lookout | None = None
         if config.ground_links:
-            self.ground = GroundStation(lambda: self.link.target, self.locate, mission.plan_items)
+            known = (lambda: self.link.target), self.locate
+            self.ground = GroundStation(*known, mission.ground_plan, self._course, config.ground_links)
         self.setpoints = SetpointStream(mission)
         self.router = Router(config.ground_links)
         self._sensed = Framer()
@@ -174,7 +176,6 @@ class Companion:
         self._flight_us = flight_us = self.clock.at(now_us, slowly=self.phase in AIRBORNE)
         for item in inputs:
             self._take(now_us, item, out)
-        out.extend(self.ground.step(now_us))
         self.seeing.step(flight_us)
         self._report_texts(now_us, out)
         if self.phase not in OVER:
@@ -185,11 +186,15 @@ class Companion:
             self._work(now_us, out)
         if self.fleet is not None:
             out.extend(self._told_to_others(self.fleet, now_us, flight_us))
+        climbs = self.phase is Phase.TAKING_OFF
+        if self.lookout is not None and climbs:
+            out.extend(self.lookout.step(flight_us, climbing=True))
         if self.phase is Phase.FLYING:
             out.extend(self.replanning.step(flight_us, self._carried_on(now_us)))
             out.extend(self.replanning.take_said())
             out.extend([] if self.lookout is None else self.lookout.step(flight_us))
         self._stream(now_us, out)
+        out.extend(self.ground.step(now_us))
         self._last_us = now_us
         return out
 
@@ -223,6 +228,11 @@ class Companion:
         north, east = to_local(Geodetic(t.global_e7[0] * 1e-7, t.global_e7[1] * 1e-7), latitude, longitude)
         high = altitude if above_home else altitude - above_sea - float(here[2])
         return float(here[0]) + north, float(here[1]) + east, high
+
+    def _course(self) -> Course:
+        """How far the flight is, for ground stations."""
+        held = self.itinerary.holding or bool(self.safety.hold) or self.phase is Phase.REJOINING
+        return Course(self.phase, self.itinerary.index, held, whole=not self.itinerary.cut_short)
 
     def _carried_on(self, now_us: int) -> Pose:
         """The pose, carried on at its velocity when it is late: what was said before a silence is no drift."""
@@ -508,7 +518,9 @@ class Companion:
         if self.itinerary.cut_short:
             self._blame(self.itinerary.cut_short)
         ours = self.autopilot.in_control(self.telemetry)  # else whoever took the mode is not told to land
-        return Event.STEPS_DONE if ours and self.itinerary.finished() else None
+        if not (ours and self.itinerary.finished()):
+            return None
+        return Event.STEPS_DONE if self.lookout is None or self.lookout.may_land(self._flight_us) else None
 
     def _link_lost(self, now_us: int, out: list[Output]) -> Event | None:
         self.itinerary.advance(self._flight_us)  # to its stop

@@ -1,6 +1,6 @@
-"""The fence: where the vehicle may be. One area to stay in, areas to stay out of, a ceiling.
+"""The fence: where the vehicle may be. Areas to stay in, all at once, areas to stay out of, a ceiling.
 
-To the planner a fence is solid: areas to stay out of are prisms and cylinders, and the area to stay in is the world
+To the planner a fence is solid: areas to stay out of are prisms and cylinders, and an area to stay in is the world
 less a polygon, in two prisms (`_outside`). To everybody else it is one number, `Geofence.inside`.
 """
 
@@ -20,10 +20,14 @@ from planner.worlds import Obstacle
 
 CIRCLE_CORNERS = 96
 """Of the polygon inside a circle to stay in: it gives away 0.05 % of the radius."""
+MOST_INCLUDED = 16
+"""Areas to stay in."""
 BEYOND = 10.0
 """How far the solids of a fence reach beyond the world [m]."""
 
 Outline = tuple[tuple[float, float], ...]
+Round = tuple[float, float, float]
+"""North, east and radius of a circle."""
 
 
 class FenceCircle(Located):
@@ -50,29 +54,28 @@ class Area(Model):
         """The corners (north, east); of a circle those of a polygon inside it."""
         if self.corners is not None:
             return tuple((c.north, c.east) for c in self.corners)
+        return _ring(self.round())
+
+    def round(self) -> Round:
+        """The circle, where it is one."""
         assert self.circle is not None
-        turn = [2.0 * math.pi * k / CIRCLE_CORNERS for k in range(CIRCLE_CORNERS)]
-        n, e, r = self.circle.north, self.circle.east, self.circle.radius
-        return tuple((n + r * math.cos(a), e + r * math.sin(a)) for a in turn)
+        return (self.circle.north, self.circle.east, self.circle.radius)
 
 
 class FenceModel(Model):
     """Where the mission may fly, as its file says it."""
 
-    include: Annotated[list[Area], Field(default_factory=list, max_length=1)]  # stay in it
+    include: Annotated[list[Area], Field(default_factory=list, max_length=MOST_INCLUDED)]  # stay in each
     exclude: Annotated[list[Area], Field(default_factory=list, max_length=1000)]  # stay out of each
     ceiling: Size | None = None  # altitude [m]
     margin: Annotated[float, Field(ge=0, le=100)] = 0.3  # no reference nearer to the fence than this [m]
 
     def geofence(self) -> "Geofence":
-        out = [a.outline() for a in self.exclude if a.corners is not None]
-        circles = [(a.circle.north, a.circle.east, a.circle.radius) for a in self.exclude if a.circle is not None]
-        within = self.include[0].circle if self.include else None
         return Geofence(
-            include=self.include[0].outline() if self.include else (),
-            within=None if within is None else (within.north, within.east, within.radius),
-            exclude=tuple(out),
-            circles=tuple(circles),
+            include=tuple(a.outline() for a in self.include if a.circle is None),
+            within=tuple(a.round() for a in self.include if a.circle is not None),
+            exclude=tuple(a.outline() for a in self.exclude if a.circle is None),
+            circles=tuple(a.round() for a in self.exclude if a.circle is not None),
             ceiling=math.inf if self.ceiling is None else self.ceiling,
             margin=self.margin,
         )
@@ -84,18 +87,18 @@ class Geofence:
 
     Attributes
     ----------
-    include : corners (north, east) of the area to stay in [m]; empty: everywhere.
-    within : (north, east, radius) where that area is a circle, whose corners `include` has.
+    include : corners (north, east) of each area to stay in [m].
+    within : (north, east, radius) of each that is a circle [m].
     exclude : corners of each area to stay out of.
     circles : (north, east, radius) likewise.
     ceiling : greatest altitude [m].
     margin : what the reference keeps from the fence [m].
     """
 
-    include: Outline = ()
-    within: tuple[float, float, float] | None = None
+    include: tuple[Outline, ...] = ()
+    within: tuple[Round, ...] = ()
     exclude: tuple[Outline, ...] = ()
-    circles: tuple[tuple[float, float, float], ...] = ()
+    circles: tuple[Round, ...] = ()
     ceiling: float = math.inf
     margin: float = 0.3
 
@@ -103,11 +106,10 @@ class Geofence:
         """Distance [m] of a point (3,) (NED) to the fence: positive inside, negative beyond it."""
         north, east, altitude = float(position_m[0]), float(position_m[1]), -float(position_m[2])
         least = self.ceiling - altitude
-        if self.within is not None:
-            n, e, radius = self.within
+        for n, e, radius in self.within:
             least = min(least, radius - math.hypot(north - n, east - e))
-        elif self.include:
-            least = min(least, -_to_outline(self.include, north, east))
+        for outline in self.include:
+            least = min(least, -_to_outline(outline, north, east))
         for outline in self.exclude:
             least = min(least, _to_outline(outline, north, east))
         for n, e, radius in self.circles:
@@ -129,8 +131,8 @@ class Geofence:
         z = (z0 - BEYOND, z1 + BEYOND)
         found: list[Obstacle] = [Prism(outline, z) for outline in self.exclude]
         found += [Cylinder((n, e), radius, z) for n, e, radius in self.circles]
-        if self.include:
-            found += [Prism(outline, z) for outline in _outside(self.include, (n0, e0), (n1, e1))]
+        for area in (*self.include, *map(_ring, self.within)):
+            found += [Prism(outline, z) for outline in _outside(area, (n0, e0), (n1, e1))]
         return found
 
 
@@ -157,6 +159,13 @@ def _outside(polygon: Outline, low: tuple[float, float], high: tuple[float, floa
         tuple([first, *chain, last, (float(most[0]), float(side)), (float(least[0]), float(side))])
         for chain, side in ((eastern, most[1]), (western, least[1]))
     ]
+
+
+def _ring(circle: Round) -> Outline:
+    """Corners of a polygon inside a circle."""
+    n, e, r = circle
+    turn = [2.0 * math.pi * k / CIRCLE_CORNERS for k in range(CIRCLE_CORNERS)]
+    return tuple((n + r * math.cos(a), e + r * math.sin(a)) for a in turn)
 
 
 def _to_outline(outline: Outline, north: float, east: float) -> float:

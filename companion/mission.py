@@ -5,9 +5,9 @@ YAML that people write.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, field_validator, model_validator
 
@@ -32,6 +32,9 @@ from companion.steps import Step, flaw_in_order
 from planner import Box, Cylinder, Limits, PointCloud, Prism, Sphere, VoxelGrid, World
 from planner.errors import WorldFileError
 from planner.worlds import Obstacle as PlannerObstacle
+
+if TYPE_CHECKING:
+    from companion.planfiles.items import GroundPlan
 
 MAX_MAP_FILES = 16
 """Voxel and cloud files of one mission."""
@@ -200,7 +203,7 @@ class Mission(Model):
     sensing: Sensing | None = None
     expect: Expect = Expect()
 
-    _plan_items: tuple[Any, ...] = PrivateAttr(default=())
+    _ground_plan: Any = PrivateAttr(default=None)
     _maps: dict[int, VoxelGrid | PointCloud] = PrivateAttr(default_factory=dict)  # by obstacle; see read_maps
     _world: World | None = PrivateAttr(default=None)
     _whole: World | None = PrivateAttr(default=None)
@@ -220,13 +223,14 @@ class Mission(Model):
         return self
 
     @property
-    def plan_items(self) -> tuple[Any, ...]:
-        """The items (`planfiles.Item`) of the ground station's plan that this mission was read from; else nothing."""
-        return self._plan_items
+    def ground_plan(self) -> "GroundPlan | None":
+        """The ground station's plan that this mission was read from, if it was."""
+        plan: GroundPlan | None = self._ground_plan
+        return plan
 
-    def keep_plan_items(self, items: Sequence[Any]) -> None:
+    def keep_ground_plan(self, plan: "GroundPlan") -> None:
         """Remember the plan that it was read from."""
-        self._plan_items = tuple(items)
+        self._ground_plan = plan
 
     def start_m(self) -> Vector:
         """Where the vehicle stands, in the mission frame."""

@@ -14,7 +14,8 @@ from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.mission import Mission
 from companion.planfiles import is_plan_file, read
-from companion.planfiles.document import mission_document, to_mission
+from companion.planfiles.document import ground_plan, mission_document, to_mission
+from companion.planfiles.items import GroundPlan
 from companion.shapes import ORIGIN, Origin
 
 MAX_FILE_BYTES = 1_000_000
@@ -95,11 +96,19 @@ def _of_plan(data: bytes, file: str) -> Mission:
         mission = to_mission(document, plan.home)
     except ValidationError as error:
         raise MissionError(file, [_problem(item, None).partition(": ")[2] for item in error.errors()]) from error
-    mission.keep_plan_items(plan.items)
+    told = ground_plan(plan)
+    mission.keep_ground_plan(told)
     found = mission.beyond_the_fence()
     if found:
-        raise MissionError(file, [f"{'.'.join(map(str, k))}: {text}" for k, text in found])
+        raise MissionError(file, [f"{_plan_item(told, k)}{'.'.join(map(str, k))}: {text}" for k, text in found])
     return mission
+
+
+def _plan_item(told: GroundPlan, keys: list[Any]) -> str:
+    """Which item of a plan a step of the mission comes from, for people."""
+    if keys[:1] != ["steps"]:
+        return ""
+    return f"item {told.current(keys[1])}: "
 
 
 def _origin(document: dict[str, Any]) -> Geodetic | None:

@@ -1,4 +1,4 @@
-"""Commands that ground stations give to the companion itself, as orders.
+"""Commands that ground stations give to the companion itself, as orders; docs/mission.md has the table.
 
 Only what is addressed to our system and our own component is looked at: a command for the vehicle (or for everybody of
 it) is the autopilot's. Every command is answered with a COMMAND_ACK, every refusal with a text that says why. A command
@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from companion.ground.progress import Progress
 from companion.ground.protocol import Answer, Sender
 from companion.hooks import Obey
 from companion.seam import Order
@@ -32,15 +33,18 @@ class Orders:
     Parameters
     ----------
     locate : finds places of the earth in the mission frame.
+    progress : of the flight in its plan.
     """
 
-    def __init__(self, locate: Locate) -> None:
-        self._locate = locate
+    def __init__(self, locate: Locate, progress: Progress) -> None:
+        self._locate, self._progress = locate, progress
         self._answered: dict[tuple[Sender, int], tuple[int, tuple[float, ...], int]] = {}
 
     def take(self, now_us: int, sender: Sender, message: Any, obey: Obey) -> Answer | None:
-        """A COMMAND_LONG or COMMAND_INT that is for us; None for any other message."""
+        """A COMMAND_LONG, COMMAND_INT or MISSION_SET_CURRENT that is for us; None for any other message."""
         kind = message.get_type()
+        if kind == "MISSION_SET_CURRENT":
+            return self._set_current(sender, message.seq, obey)
         if kind not in ("COMMAND_LONG", "COMMAND_INT"):
             return None
         params, key = _params(message), (sender, message.command)
@@ -61,49 +65,74 @@ class Orders:
         self, command: int, params: tuple[float, ...], frame: int, source: str, obey: Obey
     ) -> tuple[int, str, tuple[Any, ...]]:
         """MAV_RESULT, why it is no better, and what is sent beside it."""
-        if command == _m.MAV_CMD_REQUEST_MESSAGE and params[0] == _m.MAVLINK_MSG_ID_AUTOPILOT_VERSION:
-            return _m.MAV_RESULT_ACCEPTED, "", (_version(),)
-        orders = self._orders(command, params, frame, source)
         entry = _m.enums["MAV_CMD"].get(command)
         name = entry.name.removeprefix("MAV_CMD_") if entry is not None else f"command {command}"
-        if orders is None:
+        if command == _m.MAV_CMD_REQUEST_MESSAGE:
+            told = self._told(params[0])
+            text = "" if told is not None else f"{name}: message {params[0]:g} is not told by the companion"
+            return _m.MAV_RESULT_UNSUPPORTED if text else _m.MAV_RESULT_ACCEPTED, text, (told,) if told else ()
+        if command in NOT_OBEYED:
+            return _m.MAV_RESULT_UNSUPPORTED, f"{name} is not obeyed by the companion: {NOT_OBEYED[command]}", ()
+        order = self._order(command, params, frame, source)
+        if order is None:
             return _m.MAV_RESULT_UNSUPPORTED, f"{name} is not obeyed by the companion", ()
-        if isinstance(orders, str):
-            return _m.MAV_RESULT_DENIED, f"{name} refused: {orders}", ()
-        reasons = []
-        for order in orders:
-            reason = obey(order)
-            if not reason:
-                return _m.MAV_RESULT_ACCEPTED, "", ()
-            reasons.append(reason)
-        return _m.MAV_RESULT_DENIED, f"{name} refused: {reasons[0]}", ()
+        reason = order if isinstance(order, str) else obey(order)
+        if reason:
+            return _m.MAV_RESULT_DENIED, f"{name} refused: {reason}", ()
+        return _m.MAV_RESULT_ACCEPTED, "", ()
 
-    def _orders(self, command: int, params: tuple[float, ...], frame: int, source: str) -> list[Order] | str | None:
-        """The orders of which the first that can be carried out is meant; why there is none; None: not ours."""
-        p1 = params[0]
+    def _set_current(self, sender: Sender, item: int, obey: Obey) -> Answer:
+        """The older form of DO_SET_MISSION_CURRENT: it has no acknowledgement but MISSION_CURRENT."""
+        order = self._gone_on_with(float(item), f"{sender.system_id}/{sender.component_id}")
+        reason = order if isinstance(order, str) else obey(order)
+        return Answer(sender, (self._progress.message(),), f"MISSION_SET_CURRENT refused: {reason}" if reason else "")
+
+    def _told(self, number: float) -> Any:
+        """A message that is asked for; None: it is none of ours."""
+        match number:
+            case _m.MAVLINK_MSG_ID_AUTOPILOT_VERSION:
+                return _version()
+            case _m.MAVLINK_MSG_ID_MISSION_CURRENT:
+                return self._progress.message()
+        return None
+
+    def _order(self, command: int, params: tuple[float, ...], frame: int, source: str) -> Order | str | None:
+        """The order that is meant; why there is none; None: not ours."""
+        p1, p2 = params[:2]
         match command:
+            case _m.MAV_CMD_MISSION_START if p1 > 0.0 and p1 != self._progress.first:
+                return f"found first item {p1:g}, expected 0: a plan is begun at its beginning"
+            case _m.MAV_CMD_MISSION_START if p2 > 0.0 and p2 != self._progress.last:
+                return f"found last item {p2:g}, expected 0: a plan is flown to its end"
             case _m.MAV_CMD_MISSION_START:
-                return [Order("start", source=source), Order("resume", source=source)]
+                return Order("start", source=source)
+            case _m.MAV_CMD_DO_SET_MISSION_CURRENT:
+                return self._gone_on_with(p1, source)
             case _m.MAV_CMD_DO_PAUSE_CONTINUE if p1 in (0.0, 1.0):
-                return [Order("resume" if p1 else "hold", source=source)]
+                return Order("resume" if p1 else "hold", source=source)
             case _m.MAV_CMD_DO_PAUSE_CONTINUE:
                 return f"found {p1:g}, expected 0 to pause or 1 to go on"
             case _m.MAV_CMD_NAV_RETURN_TO_LAUNCH:
-                return [Order("return", source=source)]
+                return Order("return", source=source)
             case _m.MAV_CMD_NAV_LAND:
-                return [Order("land", source=source)]
+                return Order("land", source=source)
             case _m.MAV_CMD_COMPONENT_ARM_DISARM if p1 == 0.0:
-                return [Order("abort", source=source)]
+                return Order("abort", source=source)
             case _m.MAV_CMD_COMPONENT_ARM_DISARM:
                 return "it arms by itself when a mission is started"
             case _m.MAV_CMD_DO_REPOSITION:
                 return self._reposition(params, frame, source)
         return None
 
-    def _reposition(self, params: tuple[float, ...], frame: int, source: str) -> list[Order] | str:
+    def _gone_on_with(self, item: float, source: str) -> Order | str:
+        """The order to leave the items before one out."""
+        step = self._progress.step_of(int(item)) if item >= 0.0 and item == int(item) else f"found item {item:g}"
+        return step if isinstance(step, str) else Order("skip", (float(step),), source)
+
+    def _reposition(self, params: tuple[float, ...], frame: int, source: str) -> Order | str:
         latitude, longitude, altitude = params[4:7]
         if math.isnan(latitude) and math.isnan(longitude):
-            return [Order("hold", source=source)]  # nowhere: stay
+            return Order("hold", source=source)  # nowhere: stay
         if frame not in (*ABOVE_HOME, *ABOVE_SEA):
             return f"found frame {frame}, expected a global one"
         if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0 and math.isfinite(altitude)):
@@ -111,10 +140,20 @@ class Orders:
         place = self._locate(latitude, longitude, altitude, frame in ABOVE_HOME)
         if place is None:
             return "where the vehicle is on the earth is not known"
-        return [Order("goto", place, source=source)]
+        return Order("goto", place, source=source)
 
     def _ack(self, sender: Sender, command: int, result: int) -> Any:
         return _m.MAVLink_command_ack_message(command, result, 0, 0, *sender)
+
+
+NOT_OBEYED = {
+    _m.MAV_CMD_DO_SET_MODE: "the vehicle's mode is its own; MISSION_START flies, DO_PAUSE_CONTINUE pauses",
+    _m.MAV_CMD_NAV_TAKEOFF: "it takes off by itself when a mission is started",
+    _m.MAV_CMD_DO_CHANGE_SPEED: "the speed is the plan's",
+    _m.MAV_CMD_DO_SET_HOME: "home is where the flight began",
+    _m.MAV_CMD_SET_MESSAGE_INTERVAL: "what it tells has its own rate",
+}
+"""Commands that a ground station may well send, and why they are not obeyed."""
 
 
 def _params(message: Any) -> tuple[float, ...]:

@@ -1,20 +1,25 @@
 """The mission protocol of the companion's own component: a ground station hands over a plan, reads or clears it.
 
+A plan is a mission or a fence; rally points are refused, since the way back leads to where the flight began.
+
 Upload: MISSION_COUNT begins it, items are asked for one by one (MISSION_REQUEST_INT), MISSION_ACK ends it
-(https://mavlink.io/en/services/mission.html). A plan is kept only when it is whole and every item of it is flown; until
-then the one before stays. A request without an answer is repeated, and given up after a while. One upload at a time.
-Download keeps no state: any item may be asked for at any time, in either form.
+(https://mavlink.io/en/services/mission.html); MISSION_WRITE_PARTIAL_LIST does the same for a few items of a plan that
+is there. A plan is kept only when it is whole and every item of it is flown; until then the one before stays. A request
+without an answer is repeated, and given up after a while. One upload at a time. Download keeps no state: any item may
+be asked for at any time, in either form.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from companion.planfiles.fence import to_fence
 from companion.planfiles.items import GLOBAL, MOST_ITEMS, Item, ItemFlaw
 from companion.planfiles.reading import to_steps
 from wire.dialect import mavlink
 
 _m = mavlink
+MISSION, FENCE = _m.MAV_MISSION_TYPE_MISSION, _m.MAV_MISSION_TYPE_FENCE
 REPEAT_US = 500_000
 TRIES = 5
 DEGREES, METRES = 1e7, 1e4
@@ -40,29 +45,46 @@ class Answer:
 @dataclass(slots=True)
 class _Upload:
     sender: Sender
-    count: int
+    plan: int
+    count: int  # of items when it is whole
+    rest: list[Item] = field(default_factory=list)  # what stays after those that come
     items: list[Item] = field(default_factory=list)
     asked_us: int = 0
     tries: int = 1
 
 
 class MissionProtocol:
-    """Keeps one plan.
+    """Keeps a mission and a fence.
 
     Parameters
     ----------
-    items : the plan at the beginning.
+    items, fence : the plans at the beginning.
+    fixed : why the fence cannot be changed now; empty: it can.
 
     Attributes
     ----------
-    items : the plan that is kept, as it was uploaded.
-    uploads : how many plans were taken; a clearing counts.
+    items, fence : the plans that are kept, as they were uploaded.
+    uploads : how many were taken; a clearing counts.
     """
 
-    def __init__(self, items: Sequence[Item] = ()) -> None:
-        self.items = list(items)
+    def __init__(self, items: Sequence[Item] = (), fence: Sequence[Item] = (), fixed: str = "") -> None:
+        self._plans = {MISSION: list(items), FENCE: list(fence)}
+        self._fixed = fixed
         self.uploads = 0
         self._upload: _Upload | None = None
+
+    @property
+    def items(self) -> list[Item]:
+        return self._plans[MISSION]
+
+    @property
+    def fence(self) -> list[Item]:
+        return self._plans[FENCE]
+
+    def copy(self, other: "MissionProtocol") -> None:
+        """Keep what another keeps."""
+        self._plans = {plan: list(items) for plan, items in other._plans.items()}
+        self.uploads += 1
 
     def take(self, now_us: int, sender: Sender, message: Any) -> Answer | None:
         """One message of the protocol that is for us; None when it is none of it."""
@@ -70,11 +92,13 @@ class MissionProtocol:
         handler = HANDLERS.get(kind)
         if handler is None:
             return None
-        plan = getattr(message, "mission_type", _m.MAV_MISSION_TYPE_MISSION)
-        if plan != _m.MAV_MISSION_TYPE_MISSION and kind != "MISSION_ACK":
-            return self._refused(
-                sender, _m.MAV_MISSION_UNSUPPORTED, "only missions are kept here, no fence or rally", plan
-            )
+        plan = getattr(message, "mission_type", MISSION)
+        everything = plan == _m.MAV_MISSION_TYPE_ALL and kind == "MISSION_CLEAR_ALL"
+        if plan not in self._plans and not everything and kind != "MISSION_ACK":
+            name = "rally points are" if plan == _m.MAV_MISSION_TYPE_RALLY else f"plans of type {plan} are"
+            return self._refused(sender, _m.MAV_MISSION_UNSUPPORTED, f"{name} not kept here", plan)
+        if self._fixed and kind in CHANGING and (everything or plan == FENCE):
+            return self._refused(sender, _m.MAV_MISSION_DENIED, self._fixed, plan)
         answer: Answer | None = handler(self, now_us, sender, message)
         return answer
 
@@ -86,53 +110,64 @@ class MissionProtocol:
         if upload.tries >= TRIES:
             self._upload = None
             wanted = f"item {len(upload.items)} of {upload.count} did not come"
-            return self._refused(upload.sender, _m.MAV_MISSION_OPERATION_CANCELLED, wanted)
+            return self._refused(upload.sender, _m.MAV_MISSION_OPERATION_CANCELLED, wanted, upload.plan)
         upload.tries += 1
         return self._ask(now_us, upload)
 
     # ---- up -----------------------------------------------------------------------------------------------------
 
     def _count(self, now_us: int, sender: Sender, m: Any) -> Answer:
-        if self._upload is not None and self._upload.sender != sender:
-            return self._refused(sender, _m.MAV_MISSION_DENIED, "somebody else uploads a plan")
         if m.count > MOST_ITEMS:
             found = f"found {m.count} items, expected at most {MOST_ITEMS}"
-            return self._refused(sender, _m.MAV_MISSION_NO_SPACE, found)
+            return self._refused(sender, _m.MAV_MISSION_NO_SPACE, found, m.mission_type)
         if m.count == 0:
             return self._clear(now_us, sender, m)
-        self._upload = _Upload(sender, m.count)
-        return self._ask(now_us, self._upload)
+        return self._begin(now_us, _Upload(sender, m.mission_type, m.count))
+
+    def _partial(self, now_us: int, sender: Sender, m: Any) -> Answer:
+        there, first, last = self._plans[m.mission_type], m.start_index, m.end_index
+        if not 0 <= first <= last < len(there):
+            found = f"found items {first} to {last}, expected some of the {len(there)} that are there"
+            return self._refused(sender, _m.MAV_MISSION_INVALID_SEQUENCE, found, m.mission_type)
+        upload = _Upload(sender, m.mission_type, last + 1, rest=there[last + 1 :], items=there[:first])
+        return self._begin(now_us, upload)
+
+    def _begin(self, now_us: int, upload: _Upload) -> Answer:
+        if self._upload is not None and self._upload.sender != upload.sender:
+            return self._refused(upload.sender, _m.MAV_MISSION_DENIED, "somebody else uploads a plan", upload.plan)
+        self._upload = upload
+        return self._ask(now_us, upload)
 
     def _item(self, now_us: int, sender: Sender, m: Any) -> Answer:
-        upload = self._upload
-        if upload is None or upload.sender != sender:
-            return self._refused(sender, _m.MAV_MISSION_DENIED, f"item {m.seq} was not asked for")
+        upload, plan = self._upload, m.mission_type
+        if upload is None or upload.sender != sender or upload.plan != plan:
+            return self._refused(sender, _m.MAV_MISSION_DENIED, f"item {m.seq} was not asked for", plan)
         wanted = len(upload.items)
         if m.seq == wanted - 1:
             return self._ask(now_us, upload)  # our last request was late, or doubled
         if m.seq != wanted:
-            return self._refused(
-                sender, _m.MAV_MISSION_INVALID_SEQUENCE, f"item {m.seq} came, item {wanted} was asked for"
-            )
+            came = f"item {m.seq} came, item {wanted} was asked for"
+            return self._refused(sender, _m.MAV_MISSION_INVALID_SEQUENCE, came, plan)
         upload.items.append(item_of(m))
         upload.tries = 1
         if len(upload.items) < upload.count:
             return self._ask(now_us, upload)
-        self._upload = None
+        self._upload, items = None, upload.items + upload.rest
         try:
-            to_steps(*without_home(upload.items))
+            judge(items, plan)
         except ItemFlaw as flaw:
-            first = len(upload.items) - len(without_home(upload.items)[0])
             result = _m.MAV_MISSION_UNSUPPORTED if flaw.unsupported else _m.MAV_MISSION_INVALID
-            return self._refused(sender, result, f"item {flaw.index + first}: {flaw.what}")
-        self.items = upload.items
+            return self._refused(sender, result, f"item {flaw.index}: {flaw.what}", plan)
+        self._plans[plan] = items
         self.uploads += 1
-        return Answer(sender, (self._ack(sender, _m.MAV_MISSION_ACCEPTED),))
+        return Answer(sender, (self._ack(sender, _m.MAV_MISSION_ACCEPTED, plan),))
 
     def _clear(self, now_us: int, sender: Sender, m: Any) -> Answer:
-        self.items, self._upload = [], None
+        cleared = list(self._plans) if m.mission_type not in self._plans else [m.mission_type]
+        self._plans |= {plan: [] for plan in cleared}
+        self._upload = None
         self.uploads += 1
-        return Answer(sender, (self._ack(sender, _m.MAV_MISSION_ACCEPTED),))
+        return Answer(sender, (self._ack(sender, _m.MAV_MISSION_ACCEPTED, m.mission_type),))
 
     def _cancel(self, now_us: int, sender: Sender, m: Any) -> Answer | None:
         """Its MISSION_ACK ends a download, or gives an upload up."""
@@ -143,25 +178,31 @@ class MissionProtocol:
     def _ask(self, now_us: int, upload: _Upload) -> Answer:
         upload.asked_us = now_us
         to, wanted = upload.sender, len(upload.items)
-        return Answer(to, (_m.MAVLink_mission_request_int_message(to.system_id, to.component_id, wanted, 0),))
+        return Answer(to, (_m.MAVLink_mission_request_int_message(*to, wanted, upload.plan),))
 
     # ---- down ---------------------------------------------------------------------------------------------------
 
     def _list(self, now_us: int, sender: Sender, m: Any) -> Answer:
-        count = _m.MAVLink_mission_count_message(sender.system_id, sender.component_id, len(self.items), 0)
-        return Answer(sender, (count,))
+        count = len(self._plans[m.mission_type])
+        return Answer(sender, (_m.MAVLink_mission_count_message(*sender, count, m.mission_type),))
 
     def _request(self, now_us: int, sender: Sender, m: Any) -> Answer:
-        if m.seq >= len(self.items):
-            there = f"item {m.seq} was asked for, there are {len(self.items)}"
-            return self._refused(sender, _m.MAV_MISSION_INVALID_SEQUENCE, there)
+        items = self._plans[m.mission_type]
+        if m.seq >= len(items):
+            there = f"item {m.seq} was asked for, there are {len(items)}"
+            return self._refused(sender, _m.MAV_MISSION_INVALID_SEQUENCE, there, m.mission_type)
         whole = m.get_type() == "MISSION_REQUEST_INT"
-        return Answer(sender, (message_of(self.items[m.seq], m.seq, sender, whole),))
+        return Answer(sender, (message_of(items[m.seq], m.seq, sender, whole, m.mission_type),))
+
+    def _part(self, now_us: int, sender: Sender, m: Any) -> Answer:
+        why = "plans are not read in parts: MISSION_REQUEST_INT asks for one item"
+        return self._refused(sender, _m.MAV_MISSION_UNSUPPORTED, why, m.mission_type)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _refused(self, sender: Sender, result: int, why: str, plan: int = 0) -> Answer:
-        return Answer(sender, (self._ack(sender, result, plan),), f"plan refused: {why}")
+        what = {FENCE: "fence", _m.MAV_MISSION_TYPE_RALLY: "rally points"}.get(plan, "plan")
+        return Answer(sender, (self._ack(sender, result, plan),), f"{what} refused: {why}")
 
     def _ack(self, sender: Sender, result: int, plan: int = 0) -> Any:
         return _m.MAVLink_mission_ack_message(sender.system_id, sender.component_id, result, plan)
@@ -169,15 +210,31 @@ class MissionProtocol:
 
 HANDLERS: dict[str, Any] = {
     "MISSION_COUNT": MissionProtocol._count,
+    "MISSION_WRITE_PARTIAL_LIST": MissionProtocol._partial,
     "MISSION_ITEM_INT": MissionProtocol._item,
     "MISSION_ITEM": MissionProtocol._item,
     "MISSION_CLEAR_ALL": MissionProtocol._clear,
     "MISSION_REQUEST_LIST": MissionProtocol._list,
+    "MISSION_REQUEST_PARTIAL_LIST": MissionProtocol._part,
     "MISSION_REQUEST_INT": MissionProtocol._request,
     "MISSION_REQUEST": MissionProtocol._request,
     "MISSION_ACK": MissionProtocol._cancel,
 }
 """What each message of the protocol does."""
+CHANGING = frozenset({"MISSION_COUNT", "MISSION_WRITE_PARTIAL_LIST", "MISSION_CLEAR_ALL"})
+"""Those that change a plan."""
+
+
+def judge(items: Sequence[Item], plan: int) -> None:
+    """Raise `ItemFlaw` where a plan is not flown or kept to; its index counts all items."""
+    if plan == FENCE:
+        to_fence(items)
+        return
+    flown, home_altitude = without_home(items)
+    try:
+        to_steps(flown, home_altitude)
+    except ItemFlaw as flaw:
+        raise ItemFlaw(flaw.index + len(items) - len(flown), flaw.what, flaw.unsupported) from flaw
 
 
 def without_home(items: Sequence[Item]) -> tuple[list[Item], float]:
@@ -186,7 +243,11 @@ def without_home(items: Sequence[Item]) -> tuple[list[Item], float]:
     Home is a waypoint before the takeoff: as an item it could not be flown. Where there is none the altitude is 0,
     which is good enough to judge a plan by.
     """
-    home = len(items) > 1 and items[0].command == _m.MAV_CMD_NAV_WAYPOINT and items[1].command == _m.MAV_CMD_NAV_TAKEOFF
+    placed = (
+        item.command for item in items[1:] if item.command < _m.MAV_CMD_NAV_LAST
+    )  # beyond: what to do, conditions
+    takeoff = next(placed, None) == _m.MAV_CMD_NAV_TAKEOFF
+    home = takeoff and items[0].command == _m.MAV_CMD_NAV_WAYPOINT
     return (list(items[1:]), items[0].params[6]) if home else (list(items), 0.0)
 
 
@@ -198,14 +259,13 @@ def item_of(m: Any) -> Item:
     return Item(m.command, m.frame, (m.param1, m.param2, m.param3, m.param4, *places), extra)
 
 
-def message_of(item: Item, index: int, to: Sender, whole: bool) -> Any:
+def message_of(item: Item, index: int, to: Sender, whole: bool, plan: int = 0) -> Any:
     """The message that tells an item, in the integer form or the float one."""
     p1, p2, p3, p4, x, y, z = item.params
     build = _m.MAVLink_mission_item_int_message if whole else _m.MAVLink_mission_item_message
     scale = _scale(item.frame)
     places = (_int32(x * scale), _int32(y * scale)) if whole else (x, y)
-    follows = int(item.extra.get("autocontinue", 1))
-    return build(*to, index, item.frame, item.command, 0, follows, p1, p2, p3, p4, *places, z, 0)
+    return build(*to, index, item.frame, item.command, 0, int(item.follows), p1, p2, p3, p4, *places, z, plan)
 
 
 def _scale(frame: int) -> float:

@@ -11,9 +11,11 @@ from typing import Any
 
 from companion.geodesy import Geodetic
 from companion.ground.orders import Locate, Orders
+from companion.ground.progress import Course, Progress
 from companion.ground.protocol import Answer, MissionProtocol, Sender, without_home
 from companion.hooks import Obey
-from companion.planfiles.items import Item
+from companion.planfiles.fence import to_fence
+from companion.planfiles.items import GroundPlan
 from companion.planfiles.qgc import write_plan
 from companion.vehiclelink import COMPONENT_ID
 from wire.datagram import Address, Datagram
@@ -27,7 +29,10 @@ WANTED = frozenset(
     {
         mavlink.MAVLINK_MSG_ID_COMMAND_LONG,
         mavlink.MAVLINK_MSG_ID_COMMAND_INT,
+        mavlink.MAVLINK_MSG_ID_MISSION_SET_CURRENT,
         mavlink.MAVLINK_MSG_ID_MISSION_COUNT,
+        mavlink.MAVLINK_MSG_ID_MISSION_WRITE_PARTIAL_LIST,
+        mavlink.MAVLINK_MSG_ID_MISSION_REQUEST_PARTIAL_LIST,
         mavlink.MAVLINK_MSG_ID_MISSION_ITEM,
         mavlink.MAVLINK_MSG_ID_MISSION_ITEM_INT,
         mavlink.MAVLINK_MSG_ID_MISSION_CLEAR_ALL,
@@ -53,17 +58,30 @@ class GroundStation:
     ----------
     system_id : gives the vehicle's, which is ours, too; 0 while it is not known: then nobody is answered.
     locate : finds places of the earth in the mission frame.
-    items : the plan at the beginning.
+    plan : what the flight flies, and what is kept at the beginning.
+    course : where the flight is; None: this is no flight.
+    links : of everybody who is told how far it is.
 
     Attributes
     ----------
-    missions : the mission protocol, with the plan.
+    missions : the mission protocol, with the plans.
+    progress : how far the flight is in the plan.
     """
 
-    def __init__(self, system_id: Callable[[], int], locate: Locate = nowhere, items: Sequence[Item] = ()) -> None:
-        self._system_id = system_id
-        self.missions = MissionProtocol(items)
-        self._orders = Orders(locate)
+    def __init__(
+        self,
+        system_id: Callable[[], int],
+        locate: Locate = nowhere,
+        plan: GroundPlan | None = None,
+        course: Callable[[], Course] | None = None,
+        links: Sequence[str] = (),
+    ) -> None:
+        self._system_id, self._links = system_id, tuple(links)
+        kept = GroundPlan() if plan is None else plan
+        fixed = "" if course is None else "it is not changed in flight"
+        self.missions = MissionProtocol(kept.items, kept.fence, fixed)
+        self.progress = Progress(plan, course)
+        self._orders = Orders(locate, self.progress)
         self._framer = Framer()
         self._mav = mavlink.MAVLink(None)
         self._sequence = 0
@@ -87,13 +105,28 @@ class GroundStation:
             if len(self._places) >= MOST_SENDERS and sender not in self._places:
                 self._places.clear()
             self._places[sender] = (datagram.link, datagram.peer)
+            uploads = self.missions.uploads
             answer = self._orders.take(now_us, sender, message, obey) or self.missions.take(now_us, sender, message)
+            self.progress.complete = self.progress.complete and uploads == self.missions.uploads
             out.extend(self._sent(answer))
         return out
 
     def step(self, now_us: int) -> list[Datagram]:
-        """Once a tick: repeats."""
-        return self._sent(self.missions.step(now_us))
+        """Once a tick, at its end: repeats and progress."""
+        out = self._sent(self.missions.step(now_us))
+        if self._system_id():
+            kept = self.missions.items
+            flown, _ = without_home(kept)
+            for message in self.progress.step(now_us, len(kept) - len(flown), len(flown)):
+                data = self._packed(message)
+                out.extend(Datagram(link, data) for link in self._links)
+        return out
+
+    def after(self, flight: "GroundStation") -> None:
+        """Go on after a flight that had a station of its own: with what was uploaded meanwhile, and how far it got."""
+        if flight.missions.uploads:
+            self.missions.copy(flight.missions)
+        self.progress.complete = flight.progress.complete and not flight.missions.uploads
 
     def _sent(self, answer: Answer | None) -> list[Datagram]:
         place = None if answer is None else self._places.get(answer.to)
@@ -128,6 +161,8 @@ class GroundStation:
 MOST_SENDERS = 64
 
 
-def plan_file(items: Sequence[Item], here: Geodetic) -> bytes:
-    """An uploaded plan as the bytes of a `.plan`, to be flown and recorded; home is where the vehicle stands."""
-    return write_plan(without_home(items)[0], here, USUAL_SPEED, None, None).encode()
+def plan_file(plans: MissionProtocol, here: Geodetic) -> bytes:
+    """What was uploaded as the bytes of a `.plan`, to be flown and recorded; home is where the vehicle stands."""
+    flown, _ = without_home(plans.items)
+    uploaded = {"home": plans.items[: len(plans.items) - len(flown)], "fence": plans.fence}
+    return write_plan(flown, here, USUAL_SPEED, to_fence(plans.fence), None, uploaded).encode()

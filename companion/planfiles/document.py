@@ -8,8 +8,9 @@ from typing import Any
 from companion.errors import MissionError
 from companion.geodesy import Geodetic, to_local
 from companion.mission import Mission
-from companion.planfiles.items import Item, ItemFlaw
-from companion.planfiles.reading import to_steps
+from companion.planfiles.fence import Fence, fence_items
+from companion.planfiles.items import GroundPlan, Item, ItemFlaw
+from companion.planfiles.reading import to_steps, told
 from companion.shapes import ORIGIN
 
 AROUND = 50.0
@@ -30,14 +31,18 @@ class Plan:
     fence : as the key `fence` of a mission file; None: none.
     speed : as the key `limits.speed` [m/s]; None: not said.
     document : the parsed file, with everything this program does not know.
+    home_item : the item that home was, where a ground station counts it as one.
+    fence_items : those that the fence came as, where it did.
     """
 
     items: list[Item]
     home: Geodetic | None
     first: int = 0
-    fence: dict[str, Any] | None = None
+    fence: Fence | None = None
     speed: float | None = None
     document: dict[str, Any] = field(default_factory=dict)
+    home_item: Item | None = None
+    fence_items: list[Item] = field(default_factory=list)
 
 
 def mission_document(plan: Plan, name: str, file: str) -> dict[str, Any]:
@@ -65,6 +70,21 @@ def mission_document(plan: Plan, name: str, file: str) -> dict[str, Any]:
     if plan.fence is not None:
         document["fence"] = plan.fence
     return {**document, "steps": steps}
+
+
+def ground_plan(plan: Plan) -> GroundPlan:
+    """The items of a plan that is flown, as ground stations count them."""
+    assert plan.home is not None
+    steps = told(plan.items, plan.home.altitude)
+    first = int(plan.home_item is not None)
+    home = () if plan.home_item is None else (plan.home_item,)
+    return GroundPlan(
+        items=(*home, *plan.items),
+        first=first,
+        begins=(0,) * first + steps.begins,
+        ends=(0,) * first + steps.ends,
+        fence=tuple(plan.fence_items or fence_items(plan.fence)),
+    )
 
 
 def to_mission(document: dict[str, Any], home: Geodetic) -> Mission:

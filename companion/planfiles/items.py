@@ -42,10 +42,47 @@ class Item:
     extra: dict[str, Any] = field(default_factory=dict, compare=False)
 
     @property
+    def follows(self) -> bool:
+        """Whether the next item is flown after it without being asked for; formats write the word in two ways."""
+        return bool(self.extra.get("autocontinue", self.extra.get("autoContinue", True)))
+
+    @property
     def name(self) -> str:
         """MAV_CMD's name and number."""
         entry = _m.enums["MAV_CMD"].get(self.command)
         return f"{entry.name} ({self.command})" if entry is not None else f"MAV_CMD {self.command}"
+
+
+@dataclass(frozen=True, slots=True)
+class GroundPlan:
+    """A mission's items as ground stations count them, and where the mission's steps have them.
+
+    Attributes
+    ----------
+    items : all of them, with the home that some plans begin with.
+    first : the first that is flown; those before it are home.
+    begins, ends : by item: the step that it begins with, and the step at which it is over.
+    fence : items of the fence.
+    """
+
+    items: tuple[Item, ...] = ()
+    first: int = 0
+    begins: tuple[int, ...] = ()
+    ends: tuple[int, ...] = ()
+    fence: tuple[Item, ...] = ()
+
+    def current(self, step: int) -> int:
+        """The item that is flown in a step; the number of items where none is left."""
+        return next((k for k, end in enumerate(self.ends) if k >= self.first and end > step), len(self.items))
+
+    def step_of(self, item: int) -> int | str:
+        """The step that an item begins with, or why it cannot be begun with."""
+        if not self.first <= item < len(self.items):
+            return f"found item {item}, expected {self.first} to {len(self.items) - 1}"
+        before = self.ends[item - 1] if item > self.first else 0
+        if self.begins[item] < before == self.ends[item]:
+            return f"item {item} is flown in one with the one before it"
+        return before
 
 
 class ItemFlaw(ValueError):

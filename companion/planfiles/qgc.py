@@ -7,14 +7,17 @@ kept: the parsed document is written back with only the items, the speed and the
 import copy
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.planfiles.document import Plan
+from companion.planfiles.fence import Fence
 from companion.planfiles.items import MOST_ITEMS, NAN, Item
 
+UPLOADED = "uploaded"
+"""Our own key: home and the fence as the items that a ground station uploaded."""
 MOST_DEPTH = 64
 """Of nested lists and objects."""
 
@@ -51,11 +54,28 @@ def read_plan(text: str, file: str) -> Plan:
         raise MissionError(file, problems)
     hover: Any = mission.get("hoverSpeed")
     speed = float(hover) if _is_number(hover) and 0.1 <= float(hover) <= 100.0 else None
-    return Plan(items, Geodetic(*map(float, home)), first=0, fence=fence, speed=speed, document=document)
+    came = document.get(UPLOADED)
+    ours = {"home": [], "fence": []} if not isinstance(came, dict) else came
+    before, corners = _items(ours.get("home")), _items(ours.get("fence"))
+    return Plan(
+        items,
+        Geodetic(*map(float, home)),
+        first=len(before),
+        fence=fence,
+        speed=speed,
+        document=document,
+        home_item=before[0] if before else None,
+        fence_items=corners,
+    )
 
 
 def write_plan(
-    items: Sequence[Item], home: Geodetic, speed: float, fence: dict[str, Any] | None, kept: dict[str, Any] | None
+    items: Sequence[Item],
+    home: Geodetic,
+    speed: float,
+    fence: Fence | None,
+    kept: dict[str, Any] | None,
+    uploaded: Mapping[str, Sequence[Item]] | None = None,
 ) -> str:
     """A file's text.
 
@@ -63,6 +83,7 @@ def write_plan(
     ----------
     fence : areas with `latitude` and `longitude`, as the key `fence` of a mission file; None: as `kept` has it.
     kept : the document of a plan that was read: everything in it but our items stays as it is.
+    uploaded : items that a ground station has beside these: `home`, at most one, and `fence`.
     """
     document = copy.deepcopy(kept) if kept else _empty()
     mission = document["mission"]
@@ -72,6 +93,8 @@ def write_plan(
         mission["plannedHomePosition"] = list(home)
     if fence is not None:
         document["geoFence"] = _geofence(fence)
+    if uploaded is not None:
+        document[UPLOADED] = {key: [_entry(item, 0) for item in some] for key, some in uploaded.items()}
     return json.dumps(document, indent=4, ensure_ascii=False) + "\n"
 
 
@@ -91,6 +114,12 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise MissionError(file, ["line 1: expected a JSON object with fileType and mission"])
     return document
+
+
+def _items(listed: Any) -> list[Item]:
+    """Items of our own key; what is none is left out."""
+    found = map(_item, listed if isinstance(listed, list) else [])
+    return [item for item in found if isinstance(item, Item)]
 
 
 def _item(entry: Any) -> Item | str:
@@ -115,11 +144,11 @@ def _entry(item: Item, number: int) -> dict[str, Any]:
     known = item.extra if item.extra.get("type") == "SimpleItem" else {}
     if known and [None if p is None else float(p) for p in known["params"]] == params:
         params = known["params"]
-    base: dict[str, Any] = known or {"autoContinue": True, "doJumpId": number, "type": "SimpleItem"}
+    base: dict[str, Any] = known or {"autoContinue": item.follows, "doJumpId": number, "type": "SimpleItem"}
     return {**base, "command": item.command, "frame": item.frame, "params": params}
 
 
-def _fence(found: Any) -> tuple[dict[str, Any] | None, list[str]]:
+def _fence(found: Any) -> tuple[Fence | None, list[str]]:
     """The geofence as the key `fence` of a mission file, and what is wrong with it."""
     if not isinstance(found, dict):
         return None, []
@@ -144,14 +173,12 @@ def _fence(found: Any) -> tuple[dict[str, Any] | None, list[str]]:
         a, b, *_ = circle["center"]
         area = {"circle": {"latitude": float(a), "longitude": float(b), "radius": float(circle["radius"])}}
         (include if entry.get("inclusion", True) else exclude).append(area)
-    if len(include) > 1:
-        problems.append(f"geoFence: found {len(include)} areas to stay in, expected at most one")
     if not (include or exclude):
         return None, problems
     return {"include": include, "exclude": exclude}, problems
 
 
-def _geofence(fence: dict[str, Any]) -> dict[str, Any]:
+def _geofence(fence: Fence) -> dict[str, Any]:
     polygons, circles = [], []
     for inclusion, areas in ((True, fence.get("include", [])), (False, fence.get("exclude", []))):
         for area in areas:

@@ -3,16 +3,19 @@
 What is not flown is refused by the item's number and the command's name, never passed over.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from companion.planfiles.items import GLOBAL, MOST_ITEMS, Item, ItemFlaw
 from companion.steps import MOST_VIA
 from wire.dialect import mavlink
 
 _m = mavlink
+_OPEN = -1
+"""Ends of items whose way is not flown yet."""
 
 
 @dataclass(slots=True)
@@ -24,6 +27,8 @@ class _Reading:
     via: list[dict[str, float]] = field(default_factory=list)
     here: dict[str, float] = field(default_factory=dict)
     speed: float | None = None
+    begins: list[int] = field(default_factory=list)  # by item, as `GroundPlan` has them
+    ends: list[int] = field(default_factory=list)
 
     def add(self, kind: str, values: Any) -> None:
         step: dict[str, Any] = {kind: values}
@@ -37,6 +42,7 @@ class _Reading:
             self.via = []
         self.add("goto", place)
         self.here = place
+        self.ends = [len(self.steps) if end == _OPEN else end for end in self.ends]
 
     def climbed(self, altitude: float) -> None:
         """Begin with a climb where the plan does not."""
@@ -44,7 +50,20 @@ class _Reading:
             self.steps.append({"takeoff": {"altitude": altitude}})
 
 
+class Told(NamedTuple):
+    """A plan's steps, and by item the step it begins with and the one at which it is over."""
+
+    steps: list[dict[str, Any]]
+    begins: tuple[int, ...]
+    ends: tuple[int, ...]
+
+
 def to_steps(items: Sequence[Item], home_altitude: float) -> list[dict[str, Any]]:
+    """The steps of a plan; see `told`."""
+    return told(items, home_altitude).steps
+
+
+def told(items: Sequence[Item], home_altitude: float) -> Told:
     """The steps of a plan, as a mission file writes them; home is the mission's origin.
 
     Parameters
@@ -66,7 +85,11 @@ def to_steps(items: Sequence[Item], home_altitude: float) -> list[dict[str, Any]
         last = reading.steps[-1] if reading.steps else {}
         if "land" in last or ("return" in last and item.command != _m.MAV_CMD_NAV_LAND):
             raise ItemFlaw(index, f"{item.name} comes after the landing")
+        if any(math.isinf(p) for p in item.params):
+            raise ItemFlaw(index, f"{item.name}: found an infinite number, expected none")
+        reading.begins.append(len(reading.steps))
         read(reading, index, item)
+        reading.ends.append(_OPEN if reading.via else len(reading.steps))
     if reading.via:
         reading.goto(reading.via.pop())  # a spline's last point is where it ends
     steps = reading.steps
@@ -74,7 +97,7 @@ def to_steps(items: Sequence[Item], home_altitude: float) -> list[dict[str, Any]
         raise ItemFlaw(0, "found no place to go to, expected at least one")
     if "land" not in steps[-1] and "return" not in steps[-1]:
         steps.append({"land": {}})
-    return steps
+    return Told(steps, tuple(reading.begins), tuple(itertools.accumulate(reading.ends, max)))
 
 
 def _place(reading: _Reading, index: int, item: Item) -> dict[str, float]:

@@ -50,7 +50,7 @@ def read_wpl(text: str, file: str) -> Plan:
         raise MissionError(file, ["line 1: found no items, expected home and at least one more"])
     if items[0].command in (mavlink.MAV_CMD_NAV_WAYPOINT, 0):
         home, items = items[0], items[1:]
-        return Plan(items, Geodetic(*home.params[4:]), first=1)
+        return Plan(items, Geodetic(*home.params[4:]), first=1, home_item=home)
     place = next((i.params for i in items if i.frame in GLOBAL and any(i.params[4:6])), None)
     return Plan(items, None if place is None else Geodetic(place[4], place[5]))
 
@@ -62,7 +62,7 @@ def write_wpl(items: Sequence[Item], home: Geodetic) -> str:
     for index, item in enumerate(rows):
         numbers = [f"{0.0 if math.isnan(p) else p:.9g}" for p in item.params[:4]]
         numbers += [f"{0.0 if math.isnan(p) else p:.9f}".rstrip("0").rstrip(".") for p in item.params[4:]]
-        follows = str(item.extra.get("autocontinue", 1))
+        follows = str(item.extra.get("autocontinue", int(item.follows)))
         lines.append(
             "\t".join([str(index), str(int(index == 0)), str(item.frame), str(item.command), *numbers, follows])
         )

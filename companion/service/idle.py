@@ -53,7 +53,7 @@ class Idle:
         self.look: Callable[[], None] = lambda: None
         self.start_asked = False
         self.preparing = self.cancelled = self.place_wanted = False
-        self.station = GroundStation(lambda: self.link.target)
+        self.station = GroundStation(lambda: self.link.target, links=config.ground_links)
         self._config = config
         self._router = Router(config.ground_links)
         self.link, self.telemetry = VehicleLink(config.system_id, config.speaks_first), Telemetry()

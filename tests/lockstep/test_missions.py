@@ -307,13 +307,26 @@ def test_a_ground_station_pauses_moves_and_sends_the_flight_home_and_each_comman
 
 
 class Uploader(Pilot):
-    """A ground station that hands over a plan and then starts it."""
+    """A ground station that hands over a plan, and then a fence whose pond lies on the straight way."""
 
-    ITEMS = ((22, 3, 47.397742, 8.545594, 3.0), (16, 3, 47.39787, 8.545594, 3.0), (20, 2, 0.0, 0.0, 0.0))
+    POND = (47.39780, 8.545594, 2.5)
+    PLANS = (
+        (
+            (22, 3, 0.0, 47.397742, 8.545594, 3.0),
+            (16, 3, 0.0, 47.39787, 8.545594, 3.0),
+            (20, 2, 0.0, 0.0, 0.0, 0.0),
+        ),
+        (
+            (5003, 0, 60.0, 47.397742, 8.545594, 0.0),
+            (5004, 0, POND[2], *POND[:2], 0.0),
+        ),
+    )
 
     def __init__(self):
         super().__init__()
-        self.waiting = [mavlink.MAVLink_mission_count_message(1, 191, len(self.ITEMS), 0)]
+        counts = [mavlink.MAVLink_mission_count_message(1, 191, len(self.PLANS[k]), k) for k in (0, 1)]
+        self.waiting = [counts[0]]
+        self.next = counts[1:]
 
     def __call__(self, companion, now_us):
         if now_us > 8_000_000 and self.waiting:  # the vehicle has found its place
@@ -325,13 +338,12 @@ class Uploader(Pilot):
         super().hear(tick)
         for _, m in self.heard[before:]:
             if m.get_type() == "MISSION_REQUEST_INT":
-                command, frame, x, y, z = self.ITEMS[m.seq]
-                place = (round(x * 1e7), round(y * 1e7), z)
-                self.waiting.append(
-                    mavlink.MAVLink_mission_item_int_message(
-                        1, 191, m.seq, frame, command, 0, 1, 0, 0, 0, float("nan"), *place, 0
-                    )
-                )
+                command, frame, first, x, y, z = self.PLANS[m.mission_type][m.seq]
+                place, none = (round(x * 1e7), round(y * 1e7), z), float("nan")
+                params = (m.seq, frame, command, 0, 1, first, 0, 0, none, *place, m.mission_type)
+                self.waiting.append(mavlink.MAVLink_mission_item_int_message(1, 191, *params))
+            elif m.get_type() == "MISSION_ACK":
+                self.waiting, self.next = self.next, []
 
 
 class NobodyPlans:
@@ -352,6 +364,17 @@ class Later:
         return self.vehicle.step(now_us + self.gone_us, inputs)
 
 
+class Watcher(Pilot):
+    """A ground station that listens to what everybody is told."""
+
+    def hear(self, tick):
+        for o in tick.outputs:
+            if isinstance(o, Datagram) and o.link == "out0" and o.peer is None:
+                message = mavlink.MAVLink(None).decode(bytearray(o.data))
+                if message.get_srcComponent() == 191:
+                    self.heard.append((tick.now_us, message))
+
+
 def test_without_a_mission_the_companion_idles_takes_an_upload_and_flies_it_when_it_is_told_to_start(tmp_path):
     config = CompanionConfig(ground_links=("out0",))
     vehicle = build_vehicle(parse_mission(STRAIGHT.encode(), "straight.yaml"), 1)
@@ -364,28 +387,40 @@ def test_without_a_mission_the_companion_idles_takes_an_upload_and_flies_it_when
         [station.hear],
         limit_s=12.0,
         operator=lambda now_us: station(idle, now_us),
-        stop=lambda: idle.station.missions.uploads > 0,
+        stop=lambda: idle.station.missions.uploads > 1,
     )
-    assert [m.type for _, m in station.heard if m.get_type() == "MISSION_ACK"] == [mavlink.MAV_MISSION_ACCEPTED]
+    assert [m.type for _, m in station.heard if m.get_type() == "MISSION_ACK"] == [mavlink.MAV_MISSION_ACCEPTED] * 2
     place = idle.telemetry.global_e7
     here = Geodetic(place[0] * 1e-7, place[1] * 1e-7, place[2] * 1e-3)
-    data = plan_file(idle.station.missions.items, here)
+    data = plan_file(idle.station.missions, here)
     mission = parse_mission(data, "uploaded.plan")
     idle.mission = mission.name
     assert idle.obey(Order("start")) == ""
     assert idle.over
     companion = Companion(mission, config)
-    meter, ticks = FlightMeter(companion), []
+    meter, ticks, watcher = FlightMeter(companion), [], Watcher()
     recording = tmp_path / "uploaded.mcap"
     with Recorder(recording, threaded=False, **header(companion, data)) as recorder:
-        taps = [meter, ticks.append, RecordingTap(companion, recorder)]
+        taps = [meter, ticks.append, watcher.hear, RecordingTap(companion, recorder)]
         planning = InlinePlanning(mission.planner_world())
         fly_lockstep(companion, Later(vehicle, gone_us), LINK, planning, taps, limit_s=60.0)
     verdict = judge(companion, meter)
     assert verdict.ok, verdict.failure
     north = (47.39787 - 47.397742) * 111_200
     assert verdict.track.position_m[:, 0].max() == pytest.approx(north, abs=0.5)
-    assert companion.ground.missions.items == list(mission.plan_items)
+    here, there = (
+        [(i.command, i.frame, repr(i.params)) for i in (*s.missions.items, *s.missions.fence)]
+        for s in (companion.ground, idle.station)
+    )
+    assert here == there
+    pond = np.array([(Uploader.POND[0] - 47.397742) * 111_200, 0.0])
+    away = np.linalg.norm(verdict.track.position_m[:, :2] - pond, axis=1)
+    assert away.min() > Uploader.POND[2] + mission.vehicle.radius
+    assert [m.seq for _, m in watcher.heard if m.get_type() == "MISSION_ITEM_REACHED"] == [0, 1, 2]
+    told = [(us, m) for us, m in watcher.heard if m.get_type() == "MISSION_CURRENT"]
+    shown = [(m.seq, m.mission_state) for _, m in told]
+    assert list(dict.fromkeys(shown)) == [(0, 2), (0, 3), (1, 3), (2, 3), (2, 5)]
+    assert max(np.diff([us for us, _ in told])) == 1_000_000
     assert rerun(Recording.open(recording)).comparison.first is None
 
 

@@ -18,7 +18,7 @@ NOTCHED = ((0, 0), (10, 1), (4, 4), (9, 9), (1, 8), (3, 5))
     "outline", [((0, 0), (10, 0), (10, 10), (0, 10)), NOTCHED, NOTCHED[::-1], NOTCHED[2:] + NOTCHED[:2]]
 )
 def test_the_solids_of_an_area_to_stay_in_fill_exactly_what_is_outside_it(outline):
-    fence = Geofence(include=tuple(outline))
+    fence = Geofence(include=(tuple(outline),))
     world = World(bounds=BOUNDS, obstacles=fence.solids(BOUNDS))
     points = np.random.default_rng(3).uniform(*BOUNDS, (3000, 3))
     inside = np.array([fence.inside(p) for p in points])
@@ -30,7 +30,7 @@ def test_the_solids_of_an_area_to_stay_in_fill_exactly_what_is_outside_it(outlin
 
 
 def test_a_square_is_measured_by_hand_from_within_and_from_beyond():
-    fence = Geofence(include=((0, 0), (10, 0), (10, 10), (0, 10)), ceiling=5.0)
+    fence = Geofence(include=(((0, 0), (10, 0), (10, 10), (0, 10)),), ceiling=5.0)
     assert fence.inside((5, 3, -1)) == pytest.approx(3.0)
     assert fence.inside((5, 5, -4.5)) == pytest.approx(0.5)
     assert fence.inside((5, 5, -7)) == pytest.approx(-2.0)
@@ -56,7 +56,7 @@ def test_a_circle_to_stay_in_is_never_larger_than_it_says_and_hardly_smaller():
 
 
 def test_a_place_is_told_by_how_much_it_is_beyond_or_too_near():
-    fence = Geofence(include=((0, 0), (10, 0), (10, 10), (0, 10)))
+    fence = Geofence(include=(((0, 0), (10, 0), (10, 10), (0, 10)),))
     assert fence.told((5, 5, -1), 0.75) == ""
     assert fence.told((5, 12.25, -1), 0.75) == "2.25 m outside the fence"
     assert fence.told((5, 9.5, -1), 0.75) == "0.25 m too near the fence (it keeps 0.75 m)"
@@ -85,7 +85,7 @@ SQUARE = "{include: [{corners: [{north: 0, east: 0}, {north: 9, east: 0}, {north
         ("{exclude: [{circle: {north: 1, east: 1.5, radius: 1}}]}", 2, "vehicle.start: found a place 0.50 m outside"),
         ("{exclude: [{circle: {north: 5, east: 0, radius: 2.5}}]}", 9, "steps.3.orbit: found a place 0.50 m outside"),
         ("{ceiling: 3.5}", 6, "steps.0.takeoff: found a place 0.25 m too near the fence (it keeps 0.75 m)"),
-        (SQUARE.replace("]}]}", "]}, {circle: {north: 0, east: 0, radius: 5}}]}"), 4, "fence.include"),
+        (SQUARE.replace("]}]}", "]}, {circle: {north: 0, east: 0, radius: 5}}]}"), 8, "steps.2.goto: found a place 6.31 m"),
         (
             SQUARE.replace("{north: 0, east: 9}", "{north: 0, east: -9}").replace(
                 "north: 9, east: 9", "north: 4, east: 9"

@@ -1,18 +1,24 @@
 """Ground stations and the companion's own component: plans up and down, commands as orders, a reason for every no."""
 
+import json
 import math
 import random
 
 import pytest
 
+from companion.errors import MissionError
 from companion.geodesy import Geodetic
+from companion.ground.progress import Course
 from companion.ground.protocol import REPEAT_US, TRIES
 from companion.ground.station import GroundStation, plan_file
 from companion.missionfile import parse_mission
+from companion.phases import Phase
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
 OURS, GCS = (1, 191), (255, 190)
+MISSION, FENCE = mavlink.MAV_MISSION_TYPE_MISSION, mavlink.MAV_MISSION_TYPE_FENCE
+HOME = Geodetic(47.397742, 8.545594, 488.0)
 PLACES = [(22, 3, 47.397742, 8.545594, 5.0), (16, 3, 47.3979, 8.5458, 6.0), (20, 2, 0.0, 0.0, 0.0)]
 ALLOW = lambda order: ""  # noqa: E731  every order can be carried out
 
@@ -53,6 +59,21 @@ class Client:
             self.item(items, self.heard[-1].seq, now_us)
         return next(m for m in reversed(self.heard) if m.get_type() == "MISSION_ACK")
 
+    def give(self, rows, plan=FENCE):
+        """Upload rows of what a MISSION_ITEM_INT has after its number; the answer to the last."""
+        (last, *_) = self.say(mavlink.MAVLink_mission_count_message(*OURS, len(rows), plan))
+        while last.get_type() == "MISSION_REQUEST_INT":
+            assert last.mission_type == plan
+            last = self.say(mavlink.MAVLink_mission_item_int_message(*OURS, last.seq, *rows[last.seq], plan))[0]
+        return last
+
+    def read(self, plan=FENCE):
+        """Download rows likewise."""
+        (count,) = self.say(mavlink.MAVLink_mission_request_list_message(*OURS, plan))
+        assert count.mission_type == plan
+        found = [self.say(mavlink.MAVLink_mission_request_int_message(*OURS, k, plan))[0] for k in range(count.count)]
+        return [tuple(getattr(m, name) for name in m.fieldnames[3:-1]) for m in found]
+
     def item(self, items, seq, now_us=0, number=None):
         command, frame, x, y, z = items[seq]
         number = seq if number is None else number
@@ -71,8 +92,8 @@ class Client:
         return text
 
 
-def station(items=(), place=(10.0, 20.0, 5.0)):
-    return GroundStation(lambda: 1, lambda *asked: place, items)
+def station(place=(10.0, 20.0, 5.0)):
+    return GroundStation(lambda: 1, lambda *asked: place)
 
 
 def types(messages):
@@ -97,18 +118,19 @@ def test_a_plan_is_asked_for_item_by_item_kept_and_read_back_as_it_was():
 def test_an_uploaded_plan_is_a_mission_from_where_the_vehicle_stands():
     one = station()
     Client(one).upload()
-    mission = parse_mission(plan_file(one.missions.items, Geodetic(47.397742, 8.545594, 488.0)), "upload")
+    mission = parse_mission(plan_file(one.missions, HOME), "upload")
     assert [s.kind for s in mission.steps] == ["takeoff", "goto", "return"]
     assert mission.vehicle.start.anywhere
-    assert len(mission.plan_items) == 3
+    assert list(mission.ground_plan.items) == one.missions.items
 
 
 def test_home_before_the_takeoff_as_ardupilots_plans_have_it_is_no_place_to_go_to():
     one, home = station(), (16, 0, 47.397742, 8.545594, 488.0)
     assert Client(one).upload([home, *PLACES]).type == mavlink.MAV_MISSION_ACCEPTED
     assert len(one.missions.items) == 4
-    mission = parse_mission(plan_file(one.missions.items, Geodetic(47.397742, 8.545594, 488.0)), "upload")
+    mission = parse_mission(plan_file(one.missions, HOME), "upload")
     assert [s.kind for s in mission.steps] == ["takeoff", "goto", "return"]
+    assert list(mission.ground_plan.items) == one.missions.items
 
 
 @pytest.mark.parametrize(
@@ -171,8 +193,11 @@ def test_a_second_ground_station_waits_until_the_first_has_uploaded():
 def test_too_many_items_other_kinds_of_plans_and_items_that_are_not_there_are_refused():
     client = Client(station())
     assert client.say(mavlink.MAVLink_mission_count_message(*OURS, 1001, 0))[0].type == mavlink.MAV_MISSION_NO_SPACE
-    refused = client.say(mavlink.MAVLink_mission_count_message(*OURS, 3, mavlink.MAV_MISSION_TYPE_FENCE))[0]
-    assert (refused.type, refused.mission_type) == (mavlink.MAV_MISSION_UNSUPPORTED, mavlink.MAV_MISSION_TYPE_FENCE)
+    refused = client.say(mavlink.MAVLink_mission_count_message(*OURS, 3, mavlink.MAV_MISSION_TYPE_RALLY))[0]
+    assert (refused.type, refused.mission_type) == (mavlink.MAV_MISSION_UNSUPPORTED, mavlink.MAV_MISSION_TYPE_RALLY)
+    assert "rally points refused: rally points are not kept here" in client.texts()
+    partly = client.say(mavlink.MAVLink_mission_request_partial_list_message(*OURS, 0, -1, 0))[0]
+    assert partly.type == mavlink.MAV_MISSION_UNSUPPORTED
     missing = client.say(mavlink.MAVLink_mission_request_int_message(*OURS, 7, 0))[0]
     assert missing.type == mavlink.MAV_MISSION_INVALID_SEQUENCE
     assert "item 7 was asked for, there are 0" in client.texts()
@@ -184,6 +209,226 @@ def test_a_plan_is_cleared():
     client.upload()
     assert client.say(mavlink.MAVLink_mission_clear_all_message(*OURS, 0))[0].type == mavlink.MAV_MISSION_ACCEPTED
     assert one.missions.items == []
+
+
+def corners(command, *places, inside=0.0):
+    """Rows of a polygon's items; y of the first is odd in the last digit, which a float would lose."""
+    return [(0, command, 0, 1, float(len(places)), inside, 0.0, 0.0, x, y, 0.0) for x, y in places]
+
+
+def circle(command, radius, x=473977420, y=85455940):
+    return (0, command, 0, 1, radius, 0.0, 0.0, 0.0, x, y, 0.0)
+
+
+SQUARE = [(473970001, 85440003), (473970001, 85470003), (473990001, 85470003), (473990001, 85440003)]
+POND = [(473981001, 85457003), (473981001, 85458003), (473982001, 85458003)]
+FENCED = [*corners(5001, *SQUARE), *corners(5002, *POND), circle(5004, 7.25)]
+
+
+def test_a_fence_is_kept_read_back_as_it_was_and_flown_with():
+    one = station()
+    client = Client(one)
+    ack = client.give(FENCED)
+    assert (ack.type, ack.mission_type) == (mavlink.MAV_MISSION_ACCEPTED, FENCE)
+    assert client.read() == FENCED
+    assert client.read(MISSION) == []
+    client.upload()
+    data = plan_file(one.missions, HOME)
+    mission = parse_mission(data, "upload")
+    assert Client(GroundStation(lambda: 1, plan=mission.ground_plan)).read() == FENCED
+    fence, metres = mission.geofence(), 111_194.9  # a degree of a sphere's great circle
+    north, east = (474000000 - 473977420) / 1e7 * metres, 0.0
+    assert fence.inside((north, east, -5.0)) == pytest.approx(-(474000000 - 473990001) / 1e7 * metres, rel=0.01)
+    assert fence.inside((0.0, 0.0, -5.0)) == pytest.approx(-7.25, abs=0.01)
+    assert json.loads(data)["geoFence"]["circles"][0]["circle"]["radius"] == 7.25
+
+
+def test_a_fence_is_cleared_alone_or_with_the_plan():
+    one = station()
+    client = Client(one)
+    client.upload()
+    client.give(FENCED)
+    clear = mavlink.MAVLink_mission_clear_all_message
+    assert client.say(clear(*OURS, FENCE))[0].type == mavlink.MAV_MISSION_ACCEPTED
+    assert (len(one.missions.items), one.missions.fence) == (3, [])
+    client.give(FENCED)
+    (ack,) = client.say(clear(*OURS, mavlink.MAV_MISSION_TYPE_ALL))
+    assert (ack.type, ack.mission_type) == (mavlink.MAV_MISSION_ACCEPTED, mavlink.MAV_MISSION_TYPE_ALL)
+    assert (one.missions.items, one.missions.fence) == ([], [])
+
+
+@pytest.mark.parametrize(
+    ("rows", "result", "words"),
+    [
+        ([circle(5000, 0.0)], "UNSUPPORTED", "item 0: MAV_CMD_NAV_FENCE_RETURN_POINT (5000) is not kept to"),
+        ([circle(16, 0.0)], "UNSUPPORTED", "item 0: MAV_CMD_NAV_WAYPOINT (16) is not kept to"),
+        ([circle(5003, math.nan)], "INVALID", "found radius nan m, expected 0 to"),
+        ([circle(5003, 0.0)], "INVALID", "found radius 0 m, expected 0 to"),
+        ([circle(5003, 9.0, x=910000000)], "INVALID", "found latitude 91"),
+        ([(10, *circle(5003, 9.0)[1:])], "UNSUPPORTED", "found frame 10, expected a global one"),
+        (corners(5001, *SQUARE)[:3], "INVALID", "found 3 corners, expected 4"),
+        ([*corners(5001, *SQUARE)[:3], *corners(5002, *SQUARE)], "INVALID", "item 3: "),
+        (corners(5001, *SQUARE[:2]), "INVALID", "found 2 corners, expected 3 to"),
+        (corners(5001, SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]), "INVALID", "item 0: "),
+        ([*corners(5001, *SQUARE), *corners(5001, *SQUARE, inside=1.0)], "UNSUPPORTED", "found a second group"),
+        ([circle(5003, 500.0)] * 17, "INVALID", "expected at most 16 areas to stay in"),
+    ],
+)
+def test_a_fence_that_cannot_be_kept_to_is_refused_with_the_item_and_the_one_before_stays(rows, result, words):
+    one = station()
+    client = Client(one)
+    client.give(FENCED)
+    ack = client.give(rows)
+    assert (ack.type, ack.mission_type) == (getattr(mavlink, f"MAV_MISSION_{result}"), FENCE)
+    assert words in client.texts()
+    assert client.read() == FENCED
+
+
+def test_a_place_of_the_plan_beyond_its_fence_is_told_by_its_item():
+    one = station()
+    client = Client(one)
+    client.upload([(16, 0, 47.397742, 8.545594, 488.0), *PLACES])
+    client.give([circle(5003, 12.0)])
+    with pytest.raises(MissionError, match=r"item 2: steps\.1\.goto: found a place .* m outside the fence"):
+        parse_mission(plan_file(one.missions, HOME), "upload")
+
+
+def test_the_fence_is_not_changed_in_flight_but_a_plan_for_later_is_taken():
+    flight = GroundStation(lambda: 1, course=lambda: Course(Phase.FLYING, 1))
+    client = Client(flight)
+    assert client.give(FENCED).type == mavlink.MAV_MISSION_DENIED
+    for plan in (FENCE, mavlink.MAV_MISSION_TYPE_ALL):
+        assert client.say(mavlink.MAVLink_mission_clear_all_message(*OURS, plan))[0].type == mavlink.MAV_MISSION_DENIED
+    assert "it is not changed in flight" in client.texts()
+    assert client.upload().type == mavlink.MAV_MISSION_ACCEPTED
+    idle = station()
+    idle.after(flight)
+    assert len(idle.missions.items) == 3
+
+
+def test_a_few_items_of_a_plan_are_replaced_and_the_rest_stays():
+    one = station()
+    client = Client(one)
+    client.upload()
+    (asked,) = client.say(mavlink.MAVLink_mission_write_partial_list_message(*OURS, 1, 1, MISSION))
+    assert asked.seq == 1
+    (ack,) = client.item([PLACES[0], (16, 3, 47.3980, 8.5460, 9.0), PLACES[2]], 1)
+    assert ack.type == mavlink.MAV_MISSION_ACCEPTED
+    assert [(item.command, item.params[6]) for item in one.missions.items] == [(22, 5.0), (16, 9.0), (20, 0.0)]
+    ack, *_ = client.say(mavlink.MAVLink_mission_write_partial_list_message(*OURS, 2, 3, MISSION))
+    assert ack.type == mavlink.MAV_MISSION_INVALID_SEQUENCE
+    assert "found items 2 to 3, expected some of the 3" in client.texts()
+
+
+TOUR = [
+    (16, 0, 47.397742, 8.545594, 488.0),  # 0: home
+    (178, 2, 0.0, 0.0, 0.0),  # 1: a speed, done on the spot
+    (22, 3, 47.397742, 8.545594, 5.0),  # 2: step 0
+    (16, 3, 47.3978, 8.5457, 5.0),  # 3: step 1
+    (82, 3, 47.3979, 8.5457, 5.0),  # 4: step 2, on the way of
+    (82, 3, 47.3980, 8.5457, 5.0),  # 5: likewise
+    (16, 3, 47.3981, 8.5457, 5.0),  # 6: step 3
+    (20, 2, 0.0, 0.0, 0.0),  # 7: step 4
+]
+
+
+class Flight:
+    """A station whose flight is wherever it is said to be."""
+
+    def __init__(self, items=TOUR):
+        one = station()
+        rows = [(f, c, 0, 1, *((0.0, 2.5) if c == 178 else (0.0, 0.0)), 0.0, 0.0) for c, f, *_ in items]
+        rows = [(*row, round(x * 1e7), round(y * 1e7), z) for row, (_, _, x, y, z) in zip(rows, items, strict=True)]
+        assert Client(one).give(rows, MISSION).type == mavlink.MAV_MISSION_ACCEPTED
+        mission = parse_mission(plan_file(one.missions, HOME), "upload")
+        self.course, self.now_us = Course(Phase.CONNECTING, 0), 0
+        self.station = GroundStation(lambda: 1, plan=mission.ground_plan, course=lambda: self.course, links=("a", "b"))
+        self.client = Client(self.station)
+        self.steps = [s.kind for s in mission.steps]
+
+    def tick(self, phase, step, seconds=0.02, **more):
+        """What is told on link a, and the same on link b."""
+        self.course, self.now_us = Course(phase, step, **more), self.now_us + round(seconds * 1e6)
+        sent = self.station.step(self.now_us)
+        told = {
+            link: [mavlink.MAVLink(None).decode(bytearray(d.data)) for d in sent if d.link == link] for link in "ab"
+        }
+        assert [str(m) for m in told["a"]] == [str(m) for m in told["b"]]
+        assert all((d.peer, m.get_srcComponent()) == (None, 191) for d, m in zip(sent[::2], told["a"], strict=True))
+        return [(m.seq, m.total, m.mission_state) if m.get_type() == "MISSION_CURRENT" else m.seq for m in told["a"]]
+
+
+NOT_STARTED, ACTIVE, PAUSED, COMPLETE = 2, 3, 4, 5
+
+
+def test_the_progress_of_an_uploaded_plan_is_told_once_a_second_and_as_it_changes_each_item_once():
+    f = Flight()
+    assert f.steps == ["takeoff", "goto", "via", "goto", "return"]
+    assert f.tick(Phase.PLANNING, 0) == [(1, 7, NOT_STARTED)]
+    assert f.tick(Phase.PLANNING, 0, 0.98) == []
+    assert f.tick(Phase.PLANNING, 0) == [(1, 7, NOT_STARTED)]
+    assert f.tick(Phase.TAKING_OFF, 0) == [1, (2, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 1) == [2, (3, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 1, held=True) == [(3, 7, PAUSED)]
+    assert f.tick(Phase.FLYING, 1) == [(3, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 2) == [3, (4, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 3) == []
+    assert f.tick(Phase.FLYING, 4) == [4, 5, 6, (7, 7, ACTIVE)]
+    assert f.tick(Phase.LANDING, 5) == [7]
+    assert f.tick(Phase.DONE, 5) == [(7, 7, COMPLETE)]
+    idle = GroundStation(lambda: 1, links=("a",))
+    idle.missions.copy(f.station.missions)
+    idle.after(f.station)
+    (current,) = [mavlink.MAVLink(None).decode(bytearray(d.data)) for d in idle.step(0)]
+    assert (current.seq, current.total, current.mission_state) == (7, 7, COMPLETE)
+
+
+def test_a_flight_that_is_cut_short_or_taken_over_is_paused_and_its_last_items_are_not_reached():
+    f = Flight()
+    assert f.tick(Phase.FLYING, 1) == [1, 2, (3, 7, ACTIVE)]
+    assert f.tick(Phase.HANDED_OVER, 1) == [(3, 7, PAUSED)]
+    assert f.tick(Phase.FLYING, 1) == [(3, 7, ACTIVE)]
+    assert f.tick(Phase.LANDING, 1, whole=False) == [(3, 7, PAUSED)]
+    assert f.tick(Phase.DONE, 1, whole=False) == [(3, 7, PAUSED)]  # and its mission_mode changes
+
+
+def test_between_flights_the_plan_is_not_started_and_where_there_is_none_that_is_said():
+    idle = GroundStation(lambda: 1, links=("out0",))
+    client = Client(idle, peer=None)
+    (none,) = client.wait(0)
+    assert (none.seq, none.total, none.mission_state) == (0, 65535, mavlink.MISSION_STATE_NO_MISSION)
+    client.upload()
+    (there,) = client.wait(20_000)
+    assert (there.seq, there.total, there.mission_state) == (0, 3, NOT_STARTED)
+    ack, told = client.command(mavlink.MAV_CMD_REQUEST_MESSAGE, mavlink.MAVLINK_MSG_ID_MISSION_CURRENT)
+    assert (ack.result, told.total) == (mavlink.MAV_RESULT_ACCEPTED, 3)
+
+
+@pytest.mark.parametrize(("item", "step"), [(1, 0), (3, 1), (4, 2), (7, 4)])
+def test_a_plan_is_gone_on_with_from_the_item_that_is_set(item, step):
+    f, given = Flight(), []
+    obey = lambda order: given.append((order.name, order.values)) or ""  # noqa: E731
+    (ack,) = f.client.command(mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, float(item), obey=obey)
+    assert ack.result == mavlink.MAV_RESULT_ACCEPTED
+    told = f.client.say(mavlink.MAVLink_mission_set_current_message(*OURS, item), obey=obey)
+    assert types(told) == ["MISSION_CURRENT"]
+    assert given == [("skip", (float(step),))] * 2
+
+
+@pytest.mark.parametrize(
+    ("item", "words"),
+    [(0, "found item 0, expected 1 to 7"), (8, "found item 8"), (5, "flown in one with the one before"), (6, "in one")],
+)
+def test_an_item_that_cannot_be_gone_on_with_is_refused_in_both_forms(item, words):
+    f, given = Flight(), []
+    ack, *_ = f.client.command(mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, float(item), obey=given.append)
+    assert ack.result == mavlink.MAV_RESULT_DENIED
+    assert "DO_SET_MISSION_CURRENT refused" in f.client.texts()
+    current, *_ = f.client.say(mavlink.MAVLink_mission_set_current_message(*OURS, item), obey=given.append)
+    assert current.get_type() == "MISSION_CURRENT"
+    assert "MISSION_SET_CURRENT refused" in f.client.texts()
+    assert f.client.texts().count(words) == 2
+    assert given == []
 
 
 @pytest.mark.parametrize(
@@ -219,21 +464,31 @@ def test_an_order_that_cannot_be_carried_out_is_denied_with_its_reason():
     assert client.texts() == f"DO_REPOSITION refused: {reason}"
 
 
-def test_a_start_in_flight_goes_on_with_what_was_held():
+def test_a_start_is_never_the_word_that_takes_the_vehicle_back_from_a_pilot():
     given = []
-
-    def obey(order):
-        given.append(order.name)
-        return "" if order.name == "resume" else "not while flying"
-
-    (ack,) = Client(station()).command(mavlink.MAV_CMD_MISSION_START, obey=obey)
-    assert (given, ack.result) == (["start", "resume"], mavlink.MAV_RESULT_ACCEPTED)
+    ack, *_ = Client(station()).command(
+        mavlink.MAV_CMD_MISSION_START, obey=lambda order: given.append(order.name) or "not while handed over"
+    )
+    assert (given, ack.result) == (["start"], mavlink.MAV_RESULT_DENIED)
 
 
 @pytest.mark.parametrize(
     ("command", "params", "result", "words"),
     [
         (mavlink.MAV_CMD_DO_SET_SERVO, (1, 1500), "UNSUPPORTED", "DO_SET_SERVO is not obeyed by the companion"),
+        (
+            mavlink.MAV_CMD_DO_SET_MODE,
+            (1, 4),
+            "UNSUPPORTED",
+            "DO_SET_MODE is not obeyed by the companion: the vehicle's",
+        ),
+        (mavlink.MAV_CMD_NAV_TAKEOFF, (), "UNSUPPORTED", "it takes off by itself when a mission is started"),
+        (mavlink.MAV_CMD_DO_CHANGE_SPEED, (1, 4), "UNSUPPORTED", "the speed is the plan's"),
+        (mavlink.MAV_CMD_REQUEST_MESSAGE, (148 + 1,), "UNSUPPORTED", "message 149 is not told"),
+        (mavlink.MAV_CMD_MISSION_START, (3.0,), "DENIED", "found first item 3, expected 0"),
+        (mavlink.MAV_CMD_MISSION_START, (0.0, 1.0), "DENIED", "found last item 1, expected 0"),
+        (mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, (2.0,), "DENIED", "no plan of a ground station is flown"),
+        (mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, (math.nan,), "DENIED", "found item nan"),
         (60_000, (), "UNSUPPORTED", "command 60000 is not obeyed"),
         (mavlink.MAV_CMD_COMPONENT_ARM_DISARM, (1.0,), "DENIED", "it arms by itself when a mission is started"),
         (mavlink.MAV_CMD_DO_PAUSE_CONTINUE, (7.0,), "DENIED", "found 7, expected 0 to pause or 1 to go on"),
@@ -291,7 +546,7 @@ def test_any_bytes_and_any_packets_for_us_are_taken_without_an_exception():
     dice = random.Random(5)
     one = station()
     client = Client(one)
-    kinds = [mavlink.mavlink_map[n] for n in (76, 75, 44, 39, 73, 45, 43, 40, 51, 47)]
+    kinds = [mavlink.mavlink_map[n] for n in (76, 75, 44, 39, 73, 45, 43, 40, 51, 47, 41, 37, 38)]
     for number in range(3000):
         kind = dice.choice(kinds)
         size = kind.unpacker.size

@@ -11,6 +11,7 @@ import pytest
 
 from companion.core import Companion, CompanionConfig
 from companion.geodesy import Geodetic
+from companion.ground.protocol import MissionProtocol
 from companion.ground.station import plan_file
 from companion.missionfile import load_mission
 from companion.planfiles.items import Item
@@ -263,7 +264,7 @@ def test_an_uploaded_plan_is_flown_before_the_files_until_it_is_cleared() -> Non
     missions = Missions(file=Path("missions/l_shape.yaml"))
     missions.look()
     items = [Item(22, 3, (0.0,) * 4 + (47.397742, 8.545594, 5.0)), Item(20, 2, (0.0,) * 7)]
-    missions.upload(plan_file(items, Geodetic(47.397742, 8.545594, 488.0)))
+    missions.upload(plan_file(MissionProtocol(items), Geodetic(47.397742, 8.545594, 488.0)))
     for _ in range(2):
         assert missions.ready is not None
         assert missions.ready.file == Missions.UPLOADED
