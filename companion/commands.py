@@ -53,11 +53,13 @@ class Command(Repeated):
     command : MAV_CMD.
     parameters : up to seven, the rest are 0.
     what : what it is for, for people ("arm", "switch to OFFBOARD").
+    spare : it can be done without: a refusal is worth knowing, and no more.
     """
 
     command: int
     parameters: tuple[float, ...]
     what: str
+    spare: bool = False
     result: int | None = None  # MAV_RESULT of the last answer
     answered_us: int = 0  # when it was accepted
 

@@ -44,7 +44,8 @@ class Preparation:
     def over(self, command: Command | ParameterWrite) -> Note | None:
         """What to tell of something that was asked and is answered or given up: nothing ends the flight."""
         if command.outcome is not Outcome.ACCEPTED:
-            return Note(Level.WARNING, command.failure())
+            spare = isinstance(command, Command) and command.spare
+            return Note(Level.INFO if spare else Level.WARNING, command.failure())
         if isinstance(command, ParameterWrite):
             return Note(Level.INFO, f"{command.name} set to {command.shown}")
         return None

@@ -96,6 +96,18 @@ class Autopilot(Protocol):
         ...
 
 
+SPARE = frozenset(
+    {
+        mavlink.MAVLINK_MSG_ID_OBSTACLE_DISTANCE,
+        mavlink.MAVLINK_MSG_ID_OBSTACLE_DISTANCE_3D,
+        mavlink.MAVLINK_MSG_ID_DISTANCE_SENSOR,
+        mavlink.MAVLINK_MSG_ID_ADSB_VEHICLE,
+        mavlink.MAVLINK_MSG_ID_HIL_STATE_QUATERNION,
+    }
+)
+"""Messages that many a vehicle does not have: that it refuses one of them is no warning."""
+
+
 def stream_requests(rates_hz: dict[int, float]) -> list[Command]:
     """One SET_MESSAGE_INTERVAL for each message id."""
     return [
@@ -103,6 +115,7 @@ def stream_requests(rates_hz: dict[int, float]) -> list[Command]:
             mavlink.MAV_CMD_SET_MESSAGE_INTERVAL,
             (float(message_id), 1e6 / hz),
             f"stream {_message_name(message_id)} at {hz:g} Hz",
+            spare=message_id in SPARE,
         )
         for message_id, hz in rates_hz.items()
     ]

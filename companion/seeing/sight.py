@@ -113,7 +113,7 @@ class Sight:
         """What to ask the vehicle for; one that has no such sensor refuses, or stays silent."""
         if not self._looks:
             return {}
-        return {RING: SCANS_HZ, _ADSB: MOVERS_HZ, _GLOBAL: 10.0}
+        return {RING: SCANS_HZ, POINT: SCANS_HZ, RANGE: SCANS_HZ, _ADSB: MOVERS_HZ, _GLOBAL: 10.0}
 
     def begin(self) -> None:
         """The mission frame is fixed: what comes from now on counts."""
