@@ -59,11 +59,16 @@ BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGI
 START_SLACK = 3.0
 """How far from where its file says a vehicle may stand, where the mission's place on the earth is known [m]."""
 ARMED_ELSEWHERE = "somebody else armed the vehicle: it is not taken over"
+INTERRUPTED = (Phase.TAKING_OFF, Phase.REJOINING, Phase.LINK_LOST)
+"""Phases after which the mission is flown (again): what is ordered meanwhile is kept."""
+KEPT = ("hold", "goto", "return", "resume")
 MOVING = AIRBORNE - {Phase.LANDING}
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
 LISTEN_US = 500_000
 """Before a flight that goes by what is seen, movers are listened to for so long at least."""
+HOME_PLAN_US = 30_000_000
+"""So long a plan of the way home is waited for, the stop before it included."""
 PACE_WAIT_US = 4_000_000
 """So long a ready vehicle is waited for until its pace has been measured."""
 ESTIMATOR_FRESH_US = 2_000_000
@@ -149,7 +154,11 @@ class Companion:
         self._given_back = False
         self._plan_refusal = ""
         self._came_down = False
-        self._going_home = False
+        self._going_home = False  # by the autopilot's own return
+        self._landed_instead = False  # of that
+        self._returning_us: int | None = None  # since when, on a planned way
+        self._no_way_home = ""
+        self._kept: Order | None = None  # until the mission is flown again
         takeoff = mission.steps[0].takeoff
         self._climb_s = 0.0 if takeoff is None else 2.0 * takeoff.altitude / mission.limits.climb
         self._holding = ""
@@ -293,15 +302,31 @@ class Companion:
 
     def obey(self, now_us: int, order: Order) -> str:
         """Carry out an order: why it cannot be done, or nothing."""
-        if order.name == "land" or (order.name == "abort" and self.phase in BEFORE_FLIGHT):
+        name, phase = order.name, self.phase
+        if name == "land" and phase is Phase.HANDED_OVER and order.source:
+            return "somebody else flies the vehicle: it is not landed from here"
+        if name == "land" or (name == "abort" and phase in (*BEFORE_FLIGHT, *INTERRUPTED)):
             self._land_asked = True
             return ""
-        if order.name == "resume" and self.phase is Phase.HANDED_OVER:
+        if name == "resume" and phase is Phase.HANDED_OVER:
+            if self.telemetry.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND:
+                return "the vehicle stands on the ground"
             self._given_back = True
             return ""
-        if self.phase is not Phase.FLYING:
-            return f"not while {self.phase.value}"
+        if phase in INTERRUPTED and name in KEPT:
+            return self._keep(order)
+        if phase is not Phase.FLYING:
+            return f"not while {phase.value}"
+        if self._returning_us is not None and name != "abort":
+            return "it returns, since the battery is low"
         return self.itinerary.order(self._flight_us, order)
+
+    def _keep(self, order: Order) -> str:
+        """Carry it out once the mission is flown (again); the newest counts, and `resume` takes it back."""
+        if order.name == "resume" and self._kept is None:
+            return "nothing is held"
+        self._kept = None if order.name == "resume" else order
+        return ""
 
     def _take_plan(self, ready: PlanReady, out: list[Output]) -> None:
         if self.rejoin.take(ready) or self.itinerary.answer(self._flight_us, ready):
@@ -337,18 +362,21 @@ class Companion:
                 rule, reason = acting
                 if rule.name == "landed":
                     return rule.event
-                if rule.action in (Action.FAIL, Action.HAND_OVER, Action.LAND, Action.RETURN):
+                if rule.action in (Action.FAIL, Action.HAND_OVER, Action.LAND, Action.GO_HOME, Action.RETURN):
                     self._blame(reason)
+                if rule.action is Action.RETURN:
+                    self._returning_us = now_us
+                    self._no_way_home = self.itinerary.order(self._flight_us, Order("return"))
                 level = Level.ERROR if rule.action in (Action.FAIL, Action.HAND_OVER, Action.LAND) else Level.WARNING
                 out.append(Note(level, f"{reason} ({rule.action.value})"))
-                self._going_home = rule.action is Action.RETURN
+                self._going_home = rule.action is Action.GO_HOME
                 return rule.event
         elif self.phase is not Phase.CONNECTING:
             event = self._lost_on_the_ground(now_us, out)
             if event is not None:
                 return event
-        if self._land_asked and self.phase is not Phase.LANDING:
-            self._land_asked = False
+        land_asked, self._land_asked = self._land_asked, False
+        if land_asked and (self.phase is not Phase.LANDING or self._going_home):
             self._blame("cancelled by the operator")
             if self.phase in AIRBORNE:
                 out.append(Note(Level.WARNING, "the operator asks to land; asking again stops without landing"))
@@ -411,6 +439,9 @@ class Companion:
             error_m=self.setpoints.error_m(t.position_n - self.origin_n),
             battery=t.battery,
             blind=self.seeing.trouble(self._flight_us),
+            returning=self._returning_us is not None,
+            no_way_home=self._no_way_home,
+            going_home=self._going_home,
             no_way=self.replanning.trouble or ("" if self.lookout is None else self.lookout.trouble),
         )
 
@@ -427,6 +458,8 @@ class Companion:
         return None
 
     def _preparing(self, now_us: int, out: list[Output]) -> Event | None:
+        if self.telemetry.armed and self.telemetry.arming_is_sure:
+            return self._refused(ARMED_ELSEWHERE)
         preparation, waited_us = self._preparation, now_us - self._entered_us
         assert preparation is not None
         question = self._asking.question
@@ -510,6 +543,17 @@ class Companion:
 
     def _flying(self, now_us: int, out: list[Output]) -> Event | None:
         self._heed_hold(out)
+        kept, self._kept = self._kept, None
+        if kept is not None:
+            reason = self.obey(now_us, kept)
+            text = f"{kept.name}, as ordered before" + (f": {reason}" if reason else "")
+            out.append(Note(Level.WARNING if reason else Level.INFO, text))
+        if self._returning_us is not None and not self._no_way_home:
+            late = not self.itinerary.under_way and now_us - self._returning_us > HOME_PLAN_US
+            if not self.itinerary.homeward:
+                self._no_way_home = self.itinerary.refused or "the order to return was taken back"
+            elif late and not self.itinerary.finished():
+                self._no_way_home = f"none in {HOME_PLAN_US / 1e6:g} s"
         self.itinerary.stopped = bool(self.safety.hold) or self.rejoin.under_way(self._flight_us)
         self.itinerary.heed(self.telemetry.battery)
         if self.itinerary.advance(self._flight_us):
@@ -561,7 +605,8 @@ class Companion:
 
     def _landing(self, now_us: int, out: list[Output]) -> Event | None:
         command, told = self._asking.question, now_us - (self.telemetry.heartbeat_us or 0) <= VEHICLE_SILENT_US
-        late = self._asking.no_effect(now_us) and told and not self._came_down  # untold it may be a pilot's
+        shown = self.autopilot.lands(self.telemetry) if self._landed_instead else self._came_down
+        late = self._asking.no_effect(now_us) and told and not shown  # untold it may be a pilot's
         if command is not None and (command.outcome in (Outcome.REFUSED, Outcome.UNANSWERED) or late):
             why = "accepted, but it does not land" if late else command.failure()
             out.append(Note(Level.ERROR, f"{why}; asking again"))
@@ -595,6 +640,11 @@ class Companion:
         """Walk the table and do what entering a phase asks for."""
         before, self.phase = self.phase, after(self.phase, event)
         if self.phase is before:
+            if event is Event.LAND_ASKED and before is Phase.LANDING:
+                self._going_home, self._landed_instead = False, True
+                self._mode_before = self.telemetry.custom_mode
+                self._asking.forget()
+                self._asking.question = self._way_down()
             return
         may_arm = before is Phase.ARMING and event in (Event.LAND_ASKED, Event.REFUSED)
         if self.phase is Phase.FAILED and (may_arm or (before is Phase.TAKING_OFF and event is Event.REFUSED)):
@@ -652,8 +702,10 @@ class Companion:
                     self.failure = ""
                     self._asking.question = self.autopilot.take_control()
                 self.rejoin.begin(self.pose(self._flight_us))
+            case Phase.HANDED_OVER:
+                self._kept = None
             case Phase.LANDING:
-                self._came_down = False
+                self._came_down = self._landed_instead = False
                 self._asking.question = self._way_down()
 
     def _fix_frame(self) -> str:

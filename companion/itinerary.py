@@ -48,6 +48,7 @@ class Itinerary:
     yaw : where the nose points [rad], until a step turns it.
     stopped : keep it at rest on its path, whatever is ordered: safety's word, not a person's.
     blocked : keep it at rest likewise: something is seen on its path.
+    refused : why the way that an order needed last was not planned; empty otherwise.
     cut_short : by which order the mission did not go to its end; empty otherwise.
     """
 
@@ -63,6 +64,7 @@ class Itinerary:
     _asked: PlanWanted | None = None  # of an errand
     _purpose: Order | None = None  # of the errand, until it is there
     _landing: bool = False  # an order ends the flight here
+    refused: str = ""
     stopped: bool = False
     blocked: bool = False
     cut_short: str = ""
@@ -302,6 +304,17 @@ class Itinerary:
         """Whether an order keeps the mission from going on."""
         return self._paused or self._errand is not None
 
+    @property
+    def homeward(self) -> bool:
+        """Whether it is about to return, returns, or has done so, by an order."""
+        orders = (self._next, self._purpose)
+        return self._landing or any(order is not None and order.name == "return" for order in orders)
+
+    @property
+    def under_way(self) -> bool:
+        """Whether an order is flown."""
+        return self._purpose is not None
+
     def answer(self, now_us: int, ready: PlanReady) -> bool:
         """Take the plan of an errand; False when it is not one that was asked for."""
         asked, order = self._asked, self._next
@@ -309,7 +322,7 @@ class Itinerary:
             return False
         self._asked = self._next = None
         if ready.trajectory is None or not ready.certified:
-            reason = ready.text or ready.error or "not certified"
+            self.refused = reason = ready.text or ready.error or "not certified"
             self._said.append(Note(Level.WARNING, f"{order.name}: {reason}: holding"))
             return True
         leg = Leg(self.step, np.array(asked.goal_m), asked, ready.trajectory)

@@ -49,6 +49,7 @@ class Event(Enum):
     DISARMED = "disarmed"
     REFUSED = "refused"  # a command denied, no plan, or a time-out on the ground
     LAND_ASKED = "land asked"  # by the operator, or by the safety table
+    HOME_ASKED = "home asked"  # by the safety table: to be flown on a planned way
     INTERRUPTED = "interrupted"  # our setpoints did not reach it, or it stands elsewhere than they say
     REJOINED = "rejoined"
     MODE_LOST = "mode lost"  # the vehicle left our mode and we did not ask for it
@@ -78,6 +79,8 @@ TRANSITIONS: dict[tuple[Phase, Event], Phase] = {
     (Phase.TAKING_OFF, Event.AIRBORNE): Phase.FLYING,
     (Phase.TAKING_OFF, Event.REFUSED): Phase.FAILED,
     (Phase.FLYING, Event.STEPS_DONE): Phase.LANDING,
+    (Phase.FLYING, Event.HOME_ASKED): Phase.FLYING,  # the itinerary knows the way
+    (Phase.LANDING, Event.LAND_ASKED): Phase.LANDING,  # here, instead of where it was about to
     **{(phase, Event.LAND_ASKED): Phase.LANDING for phase in (*_IN_THE_AIR, Phase.LINK_LOST)},
     **{(phase, Event.MODE_LOST): Phase.HANDED_OVER for phase in (*_IN_THE_AIR, Phase.LINK_LOST)},
     **{(phase, Event.DISARMED): Phase.FAILED for phase in (*_IN_THE_AIR, Phase.LINK_LOST)},

@@ -35,7 +35,8 @@ class Action(Enum):
     HAND_OVER = "whoever took the mode flies"
     WAIT = "speak on, and wait to hear it"
     LAND = "land here"
-    RETURN = "return home"
+    GO_HOME = "the autopilot's own return"
+    RETURN = "return on a planned way"
     REJOIN = "hold where it is, then fly back to the path"
     HOLD = "stand on the path"
 
@@ -70,6 +71,9 @@ class Watch:
     error_m: float = 0.0  # from the reference
     battery: float | None = None  # what is left, 0..1
     blind: str = ""  # why it cannot be flown by what is seen
+    returning: bool = False  # on the mission's own way home, since the battery is low
+    no_way_home: str = ""  # why there is no such way
+    going_home: bool = False  # it lands by the autopilot's own return
     no_way: str = ""  # why there is nothing safe to fly but a stop
     held: str = ""  # why the mission's clock had to stand in the tick before
     fence_m: float | None = None  # from the reference to the fence, less what is kept; negative: too near
@@ -170,11 +174,18 @@ def _rejoin_late(w: Watch) -> str:
 
 
 def _battery_critical(w: Watch) -> str:
+    if w.phase is Phase.LANDING and not w.going_home:
+        return ""  # it lands already
     return f"battery at {w.battery:.0%}: landing" if w.battery is not None and w.battery <= BATTERY_CRITICAL else ""
 
 
 def _battery_low(w: Watch) -> str:
-    return f"battery at {w.battery:.0%}: returning" if w.battery is not None and w.battery <= BATTERY_LOW else ""
+    low = w.battery is not None and w.battery <= BATTERY_LOW and not w.returning
+    return f"battery at {w.battery:.0%}: returning" if low else ""
+
+
+def _no_way_home(w: Watch) -> str:
+    return f"no way home is planned ({w.no_way_home})" if w.returning and w.no_way_home else ""
 
 
 def _stream_lost(w: Watch) -> str:
@@ -237,8 +248,9 @@ SAFETY: tuple[Rule, ...] = (
     Rule("held for long", Action.LAND, Event.LAND_ASKED, _WALKED, TROUBLE_S, _held_for_long),
     Rule("takeoff late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.TAKING_OFF}), 0.0, _takeoff_late),
     Rule("rejoining late", Action.LAND, Event.LAND_ASKED, frozenset({Phase.REJOINING}), 0.0, _rejoin_late),
-    Rule("battery critical", Action.LAND, Event.LAND_ASKED, _FLOWN, 2.0, _battery_critical),
-    Rule("battery low", Action.RETURN, Event.LAND_ASKED, _MISSION, 2.0, _battery_low),
+    Rule("battery critical", Action.LAND, Event.LAND_ASKED, _FLOWN | _LANDING, 2.0, _battery_critical),
+    Rule("no way home", Action.GO_HOME, Event.LAND_ASKED, _MISSION, 0.0, _no_way_home),
+    Rule("battery low", Action.RETURN, Event.HOME_ASKED, _MISSION, 2.0, _battery_low),
     Rule("stream lost", Action.REJOIN, Event.INTERRUPTED, _WALKED, 0.0, _stream_lost),
     Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
     Rule("adrift", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.3, _adrift),

@@ -131,6 +131,9 @@ class ArduPilot:
     def comes_down(self, telemetry: Telemetry) -> bool:
         return telemetry.custom_mode in (LAND, RTL, SMART_RTL)
 
+    def lands(self, telemetry: Telemetry) -> bool:
+        return bool(telemetry.custom_mode == LAND)
+
     def lost_our_stream(self, telemetry: Telemetry) -> bool:
         return False
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from companion.commands import Command
+from companion.safety import BATTERY_LOW
 from companion.telemetry import Telemetry
 from wire.dialect import mavlink
 
@@ -83,6 +84,10 @@ class Autopilot(Protocol):
         """Whether it lands, or returns to land, by itself."""
         ...
 
+    def lands(self, telemetry: Telemetry) -> bool:
+        """Whether it lands where it is, by itself."""
+        ...
+
     def lost_our_stream(self, telemetry: Telemetry) -> bool:
         """Whether it left our mode only since our setpoints stopped coming, and returns when they come again."""
         ...
@@ -138,6 +143,8 @@ def common_reasons(now_us: int, telemetry: Telemetry) -> list[str]:
         reasons.append("armed already")
     if telemetry.landed_state != mavlink.MAV_LANDED_STATE_ON_GROUND:
         reasons.append("not on the ground")
+    if telemetry.battery is not None and telemetry.battery <= BATTERY_LOW:
+        reasons.append(f"battery at {telemetry.battery:.0%}")
     reasons.extend(f"estimator rejects {name}" for name in telemetry.rejected)
     return reasons
 

@@ -132,6 +132,9 @@ class Px4:
     def comes_down(self, telemetry: Telemetry) -> bool:
         return _mode(telemetry) in ((MAIN_AUTO, AUTO_LAND), (MAIN_AUTO, AUTO_RTL))
 
+    def lands(self, telemetry: Telemetry) -> bool:
+        return _mode(telemetry) == (MAIN_AUTO, AUTO_LAND)
+
     def lost_our_stream(self, telemetry: Telemetry) -> bool:
         return _mode(telemetry) == (MAIN_AUTO, AUTO_HOLD) and self._offboard_intended(telemetry)
 

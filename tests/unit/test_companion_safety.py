@@ -8,10 +8,11 @@ import pytest
 
 from companion.autopilots import AUTOPILOTS
 from companion.core import Companion, CompanionConfig
+from companion.drivers.planning import InlinePlanning
 from companion.missionfile import parse_mission
 from companion.phases import TRANSITIONS, Event, Phase
 from companion.safety import SAFETY, Action
-from companion.seam import Order, Reference
+from companion.seam import Order, PlanWanted, Reference
 from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Datagram
 from wire.dialect import mavlink
@@ -25,10 +26,22 @@ steps: [{takeoff: {altitude: 2}}, {hold: {seconds: 1000}}, land]
 """,
     "hold.yaml",
 )
+WALLED = parse_mission(
+    b"""\
+name: behind a wall
+vehicle: {start: {north: 5, east: 3}}
+world:
+  bounds: {north: [0, 20], east: [0, 20], altitude: [0, 6]}
+  obstacles: [{box: {north: [0, 14], east: [9.5, 10.5], altitude: [0, 6]}}]
+steps: [{takeoff: {altitude: 2}}, {hold: {seconds: 1000}}, land]
+""",
+    "walled.yaml",
+)
 NUMBER = {"px4": 12, "ardupilot": 3}
 OURS = {"px4": 6 << 16, "ardupilot": 4}
 HOLD = {"px4": 4 << 16 | 3 << 24, "ardupilot": 5}
 LAND = {"px4": 4 << 16 | 6 << 24, "ardupilot": 9}
+RTL = {"px4": 4 << 16 | 5 << 24, "ardupilot": 6}
 GROUND, AIR = mavlink.MAV_LANDED_STATE_ON_GROUND, mavlink.MAV_LANDED_STATE_IN_AIR
 
 
@@ -37,6 +50,7 @@ class Puppet:
 
     def __init__(self, flavour, phase, mission=MISSION):
         self.sent, self.references, self.answers, self._owed = [], [], {}, []
+        self.plans, self.planned = InlinePlanning(mission.planner_world()), False
         self.silent_on, self.decoder = (), mavlink.MAVLink(None)
         self.flavour, self.mav = flavour, mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
         self.mode = self.intended = LAND[flavour] if phase is Phase.LANDING else OURS[flavour]
@@ -54,7 +68,7 @@ class Puppet:
         self.companion.step(self.now_us, self.said())
         self.companion.step(self.now_us, self.said())
         self.companion.origin_n = np.zeros(3)
-        self.companion.phase, self.companion._entered_us = phase, self.now_us
+        self.companion.phase, self.companion._entered_us, self.companion.failure = phase, self.now_us, ""
         self.companion._asking.forget()
         if phase is Phase.REJOINING:
             self.companion.rejoin.begin(self.companion.pose(0))
@@ -105,9 +119,11 @@ class Puppet:
     def tick(self, period_us=20_000):
         self.now_us += period_us
         self.boot_ms += period_us // 1000
-        outputs = self.companion.step(self.now_us, self.said())
+        outputs = self.companion.step(self.now_us, self.said() + (self.plans.ready() if self.planned else []))
         self.notes += [o.text for o in outputs if hasattr(o, "text")]
         self.hear(outputs)
+        for wanted in [o for o in outputs if isinstance(o, PlanWanted)]:
+            self.plans.submit(wanted)
 
     def run(self, seconds):
         for _ in range(round(seconds * 50)):
@@ -137,6 +153,11 @@ def no_way(puppet):
 
 def sees_nothing(puppet):
     puppet.companion.seeing.trouble = lambda flight_us: "no scan from the obstacle sensor for 0.6 s"
+
+
+def never_returns(puppet):
+    puppet.battery = 14
+    puppet.companion.itinerary._start = np.array([2.0, 2.0, 0.0])  # and no plan is ever answered
 
 
 def stalls(puppet):
@@ -170,7 +191,8 @@ ROWS = [
         "no way back to the mission in 30 s",
     ),
     ("battery critical", FLYING, says(battery=6), 1.9, 2.2, Phase.LANDING, "battery at 6%: landing"),
-    ("battery low", FLYING, says(battery=14), 1.9, 2.2, Phase.LANDING, "battery at 14%: returning"),
+    ("no way home", FLYING, never_returns, 31.9, 32.3, Phase.LANDING, "battery at 14%: returning"),
+    ("battery low", FLYING, says(battery=14), 1.9, 2.5, Phase.LANDING, "battery at 14%: returning"),  # it is home
     ("stalled", FLYING, stalls, None, 0.1, Phase.REJOINING, ""),
     ("adrift", FLYING, strays(1.5), 0.2, 0.5, Phase.REJOINING, ""),
 ]
@@ -247,15 +269,129 @@ def test_a_vehicle_that_does_not_follow_on_the_way_back_is_landed(flavour):
     assert re.match(r"the vehicle is 3\.0 m from its reference", puppet.companion.failure)
 
 
+HOME = {"px4": (4, 5), "ardupilot": (6, 0)}
+DOWN = {"px4": (4, 6), "ardupilot": (9, 0)}
+
+
 @pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
-def test_a_low_battery_sends_it_home_and_a_critical_one_down(flavour):
-    home = {"px4": (4, 5), "ardupilot": (6, 0)}
-    down = {"px4": (4, 6), "ardupilot": (9, 0)}
-    for battery, mode in ((14, home), (5, down)):
-        puppet = Puppet(flavour, FLYING)
-        puppet.battery = battery
-        puppet.run(2.5)
-        assert puppet.companion._asking.question.parameters[1:] in (mode[flavour], mode[flavour][:1])
+def test_a_low_battery_flies_a_planned_way_home_and_lands_there(flavour):
+    puppet = Puppet(flavour, FLYING, WALLED)
+    puppet.planned = True
+    puppet.run(3.0)
+    puppet.companion.itinerary._start = np.array([2.0, 17.0, 0.0])  # behind a wall from where it holds
+    puppet.battery = 14
+    puppet.run(2.2)
+    assert "battery at 14%: returning (return on a planned way)" in puppet.notes
+    assert puppet.companion.phase is FLYING
+    assert "it returns" in puppet.companion.obey(puppet.now_us, Order("hold"))
+    puppet.run(30.0)
+    assert puppet.companion.phase is Phase.LANDING
+    assert set(puppet.modes_asked()) == {DOWN[flavour]}
+    world, way = WALLED.planner_world(), np.array([reference.position_m for reference in puppet.references])
+    assert world.distance(way).min() > WALLED.planner_radius() - 0.01
+    assert np.linalg.norm(way[-1][:2] - [2.0, 17.0]) < 0.01
+    assert puppet.companion.failure == "battery at 14%: returning"
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_low_battery_without_a_way_home_is_the_autopilots_to_return_with_and_the_reason_is_told(flavour):
+    puppet = Puppet(flavour, FLYING, WALLED)
+    puppet.planned = True
+    puppet.companion.itinerary._start = np.array([2.0, 10.0, 0.0])  # in the wall
+    puppet.battery = 14
+    puppet.run(2.5)
+    assert puppet.companion.phase is Phase.LANDING
+    assert set(puppet.modes_asked()) == {HOME[flavour]}
+    assert any(note.startswith("no way home is planned (north 2, east 10") for note in puppet.notes), puppet.notes
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+@pytest.mark.parametrize("why", ["an order", "the battery"])
+def test_a_vehicle_that_returns_by_its_autopilot_is_landed_where_it_is_when_that_is_ordered_or_the_battery_ends(
+    flavour, why
+):
+    puppet = Puppet(flavour, FLYING, WALLED)
+    puppet.planned = True
+    puppet.answers[176] = 0
+    puppet.companion.itinerary._start = np.array([2.0, 10.0, 0.0])
+    puppet.battery = 14
+    puppet.run(2.5)
+    puppet.mode = puppet.intended = RTL[flavour]
+    puppet.run(3.0)
+    assert set(puppet.modes_asked()) == {HOME[flavour]}
+    if why == "an order":
+        assert puppet.companion.obey(puppet.now_us, Order("land", source="255/190")) == ""
+    else:
+        puppet.battery = 6
+    since_us = puppet.now_us + 1
+    puppet.run(5.0)
+    asked = puppet.modes_asked(since_us)
+    assert set(asked) == {DOWN[flavour]}
+    assert len(asked) > 1  # it was accepted, and does not show
+    puppet.mode = puppet.intended = LAND[flavour]
+    puppet.run(0.5)
+    since_us = puppet.now_us + 1
+    puppet.run(5.0)
+    assert puppet.modes_asked(since_us) == []
+    puppet.armed, puppet.landed = False, GROUND
+    assert puppet.run(0.2).phase is Phase.DONE
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_is_not_ready_with_a_battery_that_it_would_have_to_return_with(flavour):
+    puppet = Puppet(flavour, FLYING)
+    puppet.battery, puppet.armed, puppet.landed = 5, False, GROUND
+    puppet.tick()
+    assert "battery at 5%" in puppet.companion.autopilot.not_ready(puppet.now_us, puppet.companion.telemetry)
+
+
+def interrupted(phase):
+    puppet = Puppet("px4", FLYING if phase is Phase.LINK_LOST else phase)
+    if phase is Phase.LINK_LOST:
+        puppet.says_anything = False
+        assert puppet.run(3.2).phase is phase
+    return puppet
+
+
+@pytest.mark.parametrize("phase", [Phase.TAKING_OFF, Phase.REJOINING, Phase.LINK_LOST])
+def test_a_hold_ordered_while_the_mission_is_interrupted_is_carried_out_when_it_goes_on(phase):
+    puppet = interrupted(phase)
+    assert puppet.companion.obey(puppet.now_us, Order("resume")) == "nothing is held"
+    assert puppet.companion.obey(puppet.now_us, Order("return")) == ""
+    assert puppet.companion.obey(puppet.now_us, Order("hold")) == ""  # the newest counts
+    puppet.companion.phase, puppet.at, puppet.says_anything = FLYING, None, True
+    puppet.companion.setpoints.reference, puppet.companion.itinerary.stopped = None, False
+    puppet.run(3.0)
+    assert "hold, as ordered before" in puppet.notes
+    assert puppet.companion.itinerary.holding
+    assert puppet.companion.phase is FLYING
+
+
+@pytest.mark.parametrize("phase", [Phase.TAKING_OFF, Phase.REJOINING, Phase.LINK_LOST])
+def test_an_abort_lands_at_once_where_the_mission_is_interrupted(phase):
+    puppet = interrupted(phase)
+    assert puppet.companion.obey(puppet.now_us, Order("abort")) == ""
+    assert puppet.run(0.1).phase is Phase.LANDING
+
+
+def test_a_vehicle_that_a_pilot_flies_is_not_landed_by_a_ground_station_and_on_the_ground_not_taken_back():
+    puppet = Puppet("px4", FLYING)
+    puppet.mode = puppet.intended = PILOTS["px4"]
+    assert puppet.run(1.0).phase is Phase.HANDED_OVER
+    assert "somebody else flies" in puppet.companion.obey(puppet.now_us, Order("land", source="255/190"))
+    puppet.landed = GROUND
+    puppet.run(0.1)
+    assert puppet.companion.obey(puppet.now_us, Order("resume")) == "the vehicle stands on the ground"
+    assert puppet.run(1.0).phase is Phase.HANDED_OVER
+    assert puppet.companion.obey(puppet.now_us, Order("land")) == ""  # the operator's Ctrl-C
+    assert puppet.run(0.1).phase is Phase.FAILED
+
+
+def test_a_vehicle_that_is_armed_when_the_flight_is_prepared_is_not_waited_for():
+    puppet = Puppet("px4", FLYING)
+    puppet.companion.phase, puppet.companion._boots = Phase.PREPARING, puppet.companion.telemetry.boots
+    assert puppet.run(0.1).phase is Phase.FAILED
+    assert "somebody else armed the vehicle" in puppet.companion.failure
 
 
 @pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
