@@ -241,7 +241,8 @@ class Companion:
     def _course(self) -> Course:
         """How far the flight is, for ground stations."""
         held = self.itinerary.holding or bool(self.safety.hold) or self.phase is Phase.REJOINING
-        return Course(self.phase, self.itinerary.index, held, whole=not self.itinerary.cut_short)
+        walked = self.itinerary
+        return Course(self.phase, walked.index, held, whole=not walked.cut_short, skipped=walked.skipped)
 
     def _carried_on(self, now_us: int) -> Pose:
         """The pose, carried on at its velocity when it is late: what was said before a silence is no drift."""

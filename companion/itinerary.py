@@ -5,7 +5,8 @@ where this file ends: the vehicle lands by itself. Everything here is in the mis
 
 Orders in flight (`order`) never jump. `hold` slows the walk to rest on the very path that is proved clear, `resume`
 lets it go on. `goto` and `return` come to rest likewise and then fly an errand: one leg, planned from there, while the
-mission waits below it; `resume` first plans the way back to where the mission was left.
+mission waits below it; `resume` first plans the way back to where the mission was left, `skip` to where another step
+begins.
 
 A detour is flown by what is seen, by whoever plans again, to where it should stand: out of the way of what comes at a
 vehicle at rest and back, or back to where the mission waits. Whatever is flown otherwise waits below it.
@@ -50,6 +51,7 @@ class Itinerary:
     blocked : keep it at rest likewise: something is seen on its path.
     refused : why the way that an order needed last was not planned; empty otherwise.
     cut_short : by which order the mission did not go to its end; empty otherwise.
+    skipped : how often a step was gone on with by order, and which it was last.
     """
 
     mission: Mission
@@ -68,6 +70,8 @@ class Itinerary:
     stopped: bool = False
     blocked: bool = False
     cut_short: str = ""
+    skipped: tuple[int, int] = (0, 0)
+    _ways: dict[int, tuple[PlanWanted | None, Trajectory]] = field(default_factory=dict)  # of legs, as first planned
     _requests: int = 0
     _said: list[PlanWanted | Note] = field(default_factory=list)
 
@@ -96,7 +100,9 @@ class Itinerary:
 
     def take(self, request_id: int, trajectory: Trajectory) -> None:
         """Keep the trajectory of one leg."""
-        self._main.legs[request_id].planned = trajectory
+        leg = self._main.legs[request_id]
+        leg.planned = trajectory
+        self._ways[request_id] = (leg.wanted, trajectory)
 
     def planned(self) -> bool:
         """Whether every leg has its trajectory."""
@@ -281,7 +287,7 @@ class Itinerary:
 
     def order(self, now_us: int, order: Order) -> str:
         """Carry out an order while flying: why it cannot be done, or nothing."""
-        if order.name == "resume":
+        if order.name in ("resume", "start"):
             return self._resume(now_us)
         if order.name == "hold" and self._paused and self._next is None:
             return "it holds already"
@@ -292,6 +298,11 @@ class Itinerary:
             flaw = self._goal_flaw(goal, lands=order.name == "return")
             if flaw:
                 return f"{place(goal)} is {flaw}"
+            self._pause(order)
+        elif order.name == "skip":
+            found = order.values[0] if order.values else math.nan
+            if found not in range(1, len(self._main.legs)):
+                return f"found step {found:g}, expected 1 to {len(self._main.legs) - 1}: it is in the air already"
             self._pause(order)
         elif order.name == "abort":
             self._pause(order)
@@ -437,8 +448,20 @@ class Itinerary:
             self._said.append(Note(Level.INFO, f"at {here}, holding until ordered on"))
         elif order.name == "return":
             self._end("return")
-        else:  # back where the mission was left
+        else:  # back where the mission was left, or is to go on
+            if order.name == "skip":
+                self._skip(now_us, int(order.values[0]))
             self._errand, self._paused = None, False
+
+    def _skip(self, now_us: int, index: int) -> None:
+        """Go on with a step, at whose beginning it stands."""
+        walk, self.yaw = self._main, self.reference(now_us).yaw
+        walk.index, walk.entered_us, walk.turn = index, round(walk.pace.at(now_us).us), None
+        if index in self._ways:  # as from its beginning, whatever it became when it was flown before
+            walk.leg.wanted, walk.leg.planned = self._ways[index]
+        self.skipped = (self.skipped[0] + 1, index)
+        self._enter()
+        self._said.append(Note(Level.INFO, f"step {index}: {self.step.kind}, as ordered"))
 
     def _end(self, order: str) -> None:
         self._landing, self.cut_short = True, f"cut short in step {self.index} by the order to {order}"
@@ -449,6 +472,8 @@ class Itinerary:
             return np.array([north, east, -altitude])
         if order.name == "return":
             return np.array([self._start[0], self._start[1], self.reference(now_us).position_m[2]])
+        if order.name == "skip":
+            return self._main.legs[int(order.values[0]) - 1].end
         return self._main.motion(self._main.seconds(now_us)).position
 
     def _goal_flaw(self, goal: FloatArray, lands: bool) -> str:

@@ -33,6 +33,7 @@ class Course:
     step: int  # of the mission's, counted from 0
     held: bool = False  # somebody or something keeps the mission from going on
     whole: bool = True  # no order cut it short
+    skipped: tuple[int, int] = (0, 0)  # how often a step was gone on with by order, and which last
 
 
 class Progress:
@@ -52,7 +53,7 @@ class Progress:
         self.complete = False
         self._plan = GroundPlan() if plan is None else plan
         self._course = course if self._plan.items else None
-        self._reached = self._plan.first
+        self._reached, self._skipped = self._plan.first, (0, 0)
         self._told: tuple[int, int, int, int] = (0, NONE, _m.MISSION_STATE_NO_MISSION, 0)
         self._due_us: int | None = None
         self._ends = (self._plan.first, len(self._plan.items) - 1)
@@ -102,6 +103,8 @@ class Progress:
         if course.phase in BEFORE:
             return []
         self.complete = course.phase is Phase.DONE and course.whole
+        if course.skipped != self._skipped:  # what was left out is not reached, what is flown again is reached again
+            self._skipped, self._reached = course.skipped, self._plan.current(course.skipped[1])
         most = len(self._plan.items)
         upto = most if self.complete else min(self._plan.current(course.step), self._reached + MOST_AT_ONCE)
         reached, self._reached = self._reached, max(self._reached, upto)

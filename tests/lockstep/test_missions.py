@@ -148,6 +148,25 @@ def test_goto_flies_to_the_place_and_holds_there_and_resume_goes_back_to_where_t
     smooth(flight)
 
 
+def test_a_flight_goes_on_with_an_earlier_or_a_later_step_when_it_is_told_to_and_nothing_jumps(fly):
+    steps = "".join(f"  - goto: {{north: {n}, east: {e}, altitude: 2}}\n" for n, e in ((20, 3), (20, 12), (37, 12)))
+    three = FIELD + f"steps:\n  - takeoff: {{altitude: 2}}\n{steps}  - land\n"
+    in_step = lambda k: lambda companion, now_us: companion.itinerary.index == k  # noqa: E731
+    refused = Order("skip", (0.0,))
+    given = orders((after(1.0), refused), (after(1.0), Order("skip", (2.0,))), (in_step(3), Order("skip", (1.0,))))
+    flight = fly(three, operator=given)
+    assert flight.verdict.ok, flight.verdict.failure
+    assert any("found step 0, expected 1 to 4" in note for note in flight.notes)
+    begun = [note for note in flight.notes if note.startswith("step ") and "planned" not in note]
+    assert begun == [
+        *("step 1: goto", "step 2: goto, as ordered", "step 3: goto"),
+        *("step 1: goto, as ordered", "step 2: goto", "step 3: goto", "step 4: land"),
+    ]
+    _, p, _, _, _ = path(flight)
+    np.testing.assert_allclose(p[-1], (37, 12, -2), atol=1e-6)
+    smooth(flight)
+
+
 @pytest.mark.parametrize(("order", "place"), [("return", (3, 3)), pytest.param("abort", None, marks=pytest.mark.slow)])
 def test_return_and_abort_come_to_rest_first_and_land(fly, order, place):
     flight = fly(STRAIGHT, operator=orders((after(4.0), Order(order))))

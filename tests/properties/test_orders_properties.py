@@ -31,6 +31,7 @@ steps:
   - wait: {for: order, at_most: 4}
   - return: {altitude: 4}
 """
+BEGINNINGS = range(1, 8)  # of steps that one may be sent to
 TICK_US = 20_000
 LATENCY_TICKS = 7
 
@@ -49,10 +50,10 @@ def test_any_orders_at_any_time_leave_the_reference_smooth_clear_and_inside(seed
     for tick in range(6000):
         now_us = tick * TICK_US
         if dice.random() < 1 / 150:
-            name = str(
-                dice.choice(["hold", "resume", "resume", "resume", "goto", "return" if tick > 4000 else "resume"])
-            )
+            name = str(dice.choice(["hold", "resume", "resume", "skip", "goto", "return" if tick > 4000 else "resume"]))
             values = tuple(dice.uniform((1, 1, 1), (29, 29, 7)).tolist()) if name == "goto" else ()
+            if name == "skip":
+                values = (float(dice.choice(BEGINNINGS)),)
             if steps.index > 0 and steps.order(now_us, Order(name, values)) == "":
                 carried_out.add(name)
         steps.advance(now_us)
@@ -65,7 +66,7 @@ def test_any_orders_at_any_time_leave_the_reference_smooth_clear_and_inside(seed
         rows.append((reference.position_m, reference.velocity_m, reference.acceleration_m))
         times.append(now_us)
     position, velocity, acceleration = (np.array([row[k] for row in rows]) for k in range(3))
-    assert carried_out & {"hold", "goto"}
+    assert carried_out & {"hold", "goto", "skip"}
     dt, limits = TICK_US / 1e6, mission.limits
     moved = np.diff(position, axis=0) - dt / 2 * (velocity[1:] + velocity[:-1])
     assert np.abs(moved).max() < 5e-4

@@ -392,6 +392,14 @@ def test_a_flight_that_is_cut_short_or_taken_over_is_paused_and_its_last_items_a
     assert f.tick(Phase.DONE, 1, whole=False) == [(3, 7, PAUSED)]  # and its mission_mode changes
 
 
+def test_items_that_are_left_out_are_not_reached_and_those_flown_again_are_reached_again():
+    f = Flight()
+    assert f.tick(Phase.FLYING, 1) == [1, 2, (3, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 4, skipped=(1, 4)) == [(7, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 1, skipped=(2, 1)) == [(3, 7, ACTIVE)]
+    assert f.tick(Phase.FLYING, 2, skipped=(2, 1)) == [3, (4, 7, ACTIVE)]
+
+
 def test_between_flights_the_plan_is_not_started_and_where_there_is_none_that_is_said():
     idle = GroundStation(lambda: 1, links=("out0",))
     client = Client(idle, peer=None)
