@@ -8,7 +8,7 @@ MAVPROXY := $(CURDIR)/$(PEERS)/mavproxy
 PACKAGES := companion fakevehicle planner logs wire
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test soak test-clients lint check format bench bench-peers pin clean
+.PHONY: help demo test soak test-clients lint check format bench bench-peers pin web clean
 help:            ## show this
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
@@ -47,6 +47,9 @@ bench-peers: $(PEERS)/.installed ## what benchmarks compare with, in a folder of
 
 pin: $(STAMP)    ## write constraints.txt from what is installed now
 	{ head -1 constraints.txt; $(BIN)/pip freeze --all --exclude-editable | grep -v '^pip==' ; } > constraints.tmp && mv constraints.tmp constraints.txt
+
+web:             ## build the page of reports and of the live view from web/ (wants node and npm)
+	cd web && npm ci --no-audit --no-fund && npm run build
 
 clean:           ## remove the environment and caches
 	rm -rf $(VENV) $(PEERS) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build *.egg-info

@@ -1,0 +1,83 @@
+/** The head of the page: how it went, what was checked, what it was flown with, what was lost. */
+
+import type { HeaderJson } from "./data";
+import { h } from "./dom";
+import { cell, clock, number } from "./format";
+
+export function verdictWord(header: HeaderJson): { word: string; tone: string } {
+  if (header.ok === true) return { word: "passed", tone: "good" };
+  if (header.ok === false) return { word: "failed", tone: "bad" };
+  return { word: header.phase || "no verdict", tone: "neutral" };
+}
+
+export class Verdict {
+  readonly element = h("section.verdict", { id: "verdict", "aria-label": "verdict" });
+  private header: HeaderJson;
+
+  constructor(header: HeaderJson) {
+    this.header = header;
+    this.draw();
+  }
+
+  update(more: Partial<HeaderJson>): HeaderJson {
+    this.header = { ...this.header, ...more };
+    this.draw();
+    return this.header;
+  }
+
+  private draw(): void {
+    const { header } = this;
+    const { word, tone } = verdictWord(header);
+    const failed = header.checks.filter((c) => c.ok === false).length;
+    const held = header.checks.filter((c) => c.ok === true).length;
+    const lost = header.loss.reduce((sum, [, count]) => sum + count, 0);
+    const summary = [
+      header.duration_s > 0 ? `${clock(header.duration_s, 1)} flown` : "",
+      header.checks.length ? (failed ? `${failed} of ${header.checks.length} checks failed` : `${held} of ${header.checks.length} checks held`) : "",
+      header.loss.length ? (lost ? `${number(lost)} lost in recording` : "nothing lost") : "",
+      header.phase && header.ok !== null ? `ended ${header.phase}` : "",
+    ].filter(Boolean);
+    this.element.replaceChildren(
+      h(`div.banner.${tone}`,
+        h("span.stamp", word),
+        h("div", h("h1", header.title), h("p.summary", summary.join(" · "), header.start_utc ? h("span.when", when(header.start_utc)) : null),
+          header.failure ? h("p.failure", header.failure) : null)),
+      h("div.verdict-grid", this.checks(), this.facts(), this.loss()));
+  }
+
+  private checks(): HTMLElement | null {
+    const { checks } = this.header;
+    if (!checks.length) return null;
+    return h("figure.card.checks", h("figcaption", h("span.plot-title", "Checks")),
+      h("div.scroll", h("table",
+        h("thead", h("tr", h("th", { scope: "col" }, ""), h("th", { scope: "col" }, "what"), h("th.num", { scope: "col" }, "found"), h("th.num", { scope: "col" }, "expected"))),
+        h("tbody", checks.map((c) => h("tr", { class: c.ok === false ? "failed" : "" },
+          h("td.mark", { "aria-label": c.ok === false ? "failed" : c.ok ? "held" : "not judged" }, c.ok === false ? "✕" : c.ok ? "✓" : "·"),
+          h("td", words(c.name)), h("td.num", cell(c.value)), h("td.num.dim", cell(c.expected))))))));
+  }
+
+  private facts(): HTMLElement | null {
+    const { facts } = this.header;
+    if (!facts.length) return null;
+    return h("figure.card.facts", h("figcaption", h("span.plot-title", "Flown with")),
+      h("dl", facts.map(([name, value]) => h("div", h("dt", words(name)), h("dd", typeof value === "number" ? number(value, 6) : cell(value))))));
+  }
+
+  private loss(): HTMLElement | null {
+    const { loss } = this.header;
+    if (!loss.length) return null;
+    return h("figure.card.loss", h("figcaption", h("span.plot-title", "Lost in recording")),
+      h("dl", loss.map(([name, count]) => h(`div${count ? ".some" : ""}`, h("dt", words(name)), h("dd", count.toLocaleString("en"))))));
+  }
+}
+
+/** Names of fields as people write them. */
+function words(name: string): string {
+  return name.replaceAll("_", " ");
+}
+
+function when(utc: string): string {
+  const date = new Date(utc);
+  if (Number.isNaN(date.getTime())) return ` · ${utc}`;
+  return ` · ${date.toLocaleString("en-GB", { dateStyle: "medium", timeStyle: "short", timeZone: "UTC" })} UTC`;
+}
