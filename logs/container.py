@@ -10,7 +10,7 @@ Nothing is written that was not passed in, no clock is read: the same calls give
 
 import struct
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -67,6 +67,145 @@ class Output(Protocol):
     def seek(self, offset: int, /) -> int: ...
 
 
+class Summary:
+    """What stands at the end of a file: declarations, statistics, and where everything is."""
+
+    def __init__(self) -> None:
+        self.schemas: list[Schema] = []
+        self.channels: list[Channel] = []
+        self.counts: dict[int, int] = {}  # channel -> messages
+        self._chunks: list[ChunkIndex] = []
+        self._attachments: list[AttachmentIndex] = []
+        self._metadata: list[MetadataIndex] = []
+        self._start_ns: int | None = None
+        self._end_ns = 0
+
+    @property
+    def messages(self) -> int:
+        return sum(self.counts.values())
+
+    def add_metadata(self, name: str, offset: int, length: int) -> None:
+        """A metadata record of `length` bytes stands at `offset`."""
+        self._metadata.append(MetadataIndex(offset=offset, length=length, name=name))
+
+    def add_attachment(self, record: McapAttachment, offset: int, length: int) -> None:
+        """An attachment record of `length` bytes stands at `offset`."""
+        self._attachments.append(
+            AttachmentIndex(
+                offset=offset,
+                length=length,
+                create_time=record.create_time,
+                log_time=record.log_time,
+                data_size=len(record.data),
+                name=record.name,
+                media_type=record.media_type,
+            )
+        )
+
+    def add_chunk(self, index: ChunkIndex, counts: Mapping[int, int]) -> None:
+        """A chunk with so many messages of each channel stands where `index` says."""
+        self._chunks.append(index)
+        for channel_id, count in counts.items():
+            self.counts[channel_id] = self.counts.get(channel_id, 0) + count
+        if counts:
+            self.span(index.message_start_time, index.message_end_time)
+
+    def span(self, first_ns: int, last_ns: int) -> None:
+        """There are messages of these log times."""
+        self._start_ns = first_ns if self._start_ns is None else min(self._start_ns, first_ns)
+        self._end_ns = max(self._end_ns, last_ns)
+
+    def tail(self, data_crc: int, position: int) -> bytes:
+        """The end of a file whose data section, with this checksum, ends at `position`: DataEnd to the magic."""
+        data_end = bytes_of(DataEnd(data_crc))
+        statistics = Statistics(
+            message_count=self.messages,
+            schema_count=len(self.schemas),
+            channel_count=len(self.channels),
+            attachment_count=len(self._attachments),
+            metadata_count=len(self._metadata),
+            chunk_count=len(self._chunks),
+            message_start_time=self._start_ns or 0,
+            message_end_time=self._end_ns,
+            channel_message_counts={channel: count for channel, count in self.counts.items() if count},
+        )
+        groups: list[tuple[Opcode, list[bytes]]] = [
+            (Opcode.SCHEMA, [bytes_of(record) for record in self.schemas]),
+            (Opcode.CHANNEL, [bytes_of(record) for record in self.channels]),
+            (Opcode.STATISTICS, [bytes_of(statistics)]),
+            (Opcode.CHUNK_INDEX, [bytes_of(record) for record in self._chunks]),
+            (Opcode.ATTACHMENT_INDEX, [bytes_of(record) for record in self._attachments]),
+            (Opcode.METADATA_INDEX, [bytes_of(record) for record in self._metadata]),
+        ]
+        summary_start = position = position + len(data_end)
+        summary, offsets = b"", b""
+        for opcode, records in groups:
+            group = b"".join(records)
+            if group:
+                offsets += bytes_of(SummaryOffset(group_opcode=opcode, group_start=position, group_length=len(group)))
+            summary += group
+            position += len(group)
+        return data_end + _footed(summary + offsets, summary_start, position)
+
+
+def bare_tail(data_crc: int) -> bytes:
+    """The shortest end there is, of 59 bytes: without a summary, which readers then make for themselves."""
+    return bytes_of(DataEnd(data_crc)) + _footed(b"", 0, 0)
+
+
+def _footed(summary: bytes, start: int, offset_start: int) -> bytes:
+    # The summary's CRC covers the footer too, up to the CRC itself.
+    crc = zlib.crc32(summary + struct.pack("<BQQQ", Opcode.FOOTER, 20, start, offset_start))
+    footer = Footer(summary_start=start, summary_offset_start=offset_start, summary_crc=crc)
+    return summary + bytes_of(footer) + MAGIC
+
+
+def chunk_of(records: bytes, index: Mapping[int, Sequence[int]], offset: int) -> tuple[bytes, ChunkIndex]:
+    """A chunk and its message indexes as they stand in the file at `offset`, and what the summary says of them.
+
+    Parameters
+    ----------
+    records : the chunk's content.
+    index : channel -> log time [ns], offset in `records`, log time, ... of its messages.
+    """
+    compressed = zstandard.ZstdCompressor(level=3).compress(records)
+    times = [(min(entries[0::2]), max(entries[0::2])) for entries in index.values()]
+    first, last = min((time[0] for time in times), default=0), max((time[1] for time in times), default=0)
+    chunk = bytes_of(
+        Chunk(
+            compression="zstd",
+            data=compressed,
+            message_start_time=first,
+            message_end_time=last,
+            uncompressed_crc=zlib.crc32(records),
+            uncompressed_size=len(records),
+        )
+    )
+    indexes, offsets = indexes_of(index, offset + len(chunk))
+    return chunk + indexes, ChunkIndex(
+        message_start_time=first,
+        message_end_time=last,
+        chunk_start_offset=offset,
+        chunk_length=len(chunk),
+        message_index_offsets=offsets,
+        message_index_length=len(indexes),
+        compression="zstd",
+        compressed_size=len(compressed),
+        uncompressed_size=len(records),
+    )
+
+
+def indexes_of(index: Mapping[int, Sequence[int]], offset: int) -> tuple[bytes, dict[int, int]]:
+    """The message indexes of a chunk that ends at `offset`, and where each channel's stands."""
+    pieces, offsets = [], {}
+    for channel_id, entries in index.items():
+        offsets[channel_id] = offset
+        payload = struct.pack(f"<{len(entries)}Q", *entries)
+        pieces.append(_INDEX.pack(Opcode.MESSAGE_INDEX, 6 + len(payload), channel_id, len(payload)) + payload)
+        offset += len(pieces[-1])
+    return b"".join(pieces), offsets
+
+
 class Container:
     """Writes one MCAP file: zstd chunks, CRCs, message indexes, statistics, summary.
 
@@ -74,65 +213,54 @@ class Container:
     ----------
     output : an empty file; the caller closes it.
 
+    Attributes
+    ----------
+    size : of the file so far, without the chunk in progress [bytes].
+
     Raises
     ------
     OSError    From every method that writes, when the file cannot take it; the file then ends behind the last piece
-        that went in whole, and nothing more should be written.
+        that went in whole, and nothing but `abandon` should be called.
     """
 
     def __init__(self, output: Output) -> None:
         self._output = output
-        self._offset = 0
+        self.size = 0
         self._crc = 0
-        self._compressor = zstandard.ZstdCompressor(level=3)
-        self._schemas: list[Schema] = []
-        self._channels: list[Channel] = []
-        self._chunks: list[ChunkIndex] = []
-        self._attachments: list[AttachmentIndex] = []
-        self._metadata: list[MetadataIndex] = []
-        self._counts: dict[int, int] = {}
-        self._start_ns: int | None = None
-        self._end_ns = 0
+        self._summary = Summary()
         self._parts: list[bytes] = []  # of the open chunk
-        self._size = 0
+        self._open = 0  # its size
         self._index: dict[int, list[int]] = {}  # channel -> [log time, offset in chunk, log time, ...]
-        self._write(MAGIC + _bytes_of(Header(PROFILE, LIBRARY)))
+        self._write(MAGIC + bytes_of(Header(PROFILE, LIBRARY)))
 
     def add_metadata(self, name: str, values: Mapping[str, str]) -> None:
         """Write a named table of strings now, behind the chunk in progress."""
         self.flush()
-        data = _bytes_of(Metadata(name=name, metadata=dict(values)))
-        self._metadata.append(MetadataIndex(offset=self._offset, length=len(data), name=name))
+        data = bytes_of(Metadata(name=name, metadata=dict(values)))
+        offset = self.size
         self._write(data)
+        self._summary.add_metadata(name, offset, len(data))
 
     def add_attachment(self, name: str, media_type: str, data: bytes) -> None:
         """Write a named file now, behind the chunk in progress."""
         self.flush()
-        record = _bytes_of(McapAttachment(create_time=0, log_time=0, name=name, media_type=media_type, data=data))
-        self._attachments.append(
-            AttachmentIndex(
-                offset=self._offset,
-                length=len(record),
-                create_time=0,
-                log_time=0,
-                data_size=len(data),
-                name=name,
-                media_type=media_type,
-            )
-        )
+        attachment = McapAttachment(create_time=0, log_time=0, name=name, media_type=media_type, data=data)
+        record = bytes_of(attachment)
+        offset = self.size
         self._write(record)
+        self._summary.add_attachment(attachment, offset, len(record))
 
     def add_schema(self, name: str, encoding: str, data: bytes) -> int:
         """Declare a schema; returns its id, from 1."""
-        schema_id = len(self._schemas) + 1
+        schema_id = len(self._summary.schemas) + 1
         schema = Schema(id=schema_id, name=name, encoding=encoding, data=data)
-        self._schemas.append(schema)
-        self._into_chunk(_bytes_of(schema))
+        self._summary.schemas.append(schema)
+        self._into_chunk(bytes_of(schema))
         return schema_id
 
     def add_channel(self, topic: str, encoding: str, schema_id: int, metadata: Mapping[str, str]) -> int:
         """Declare a channel; returns its id, from 1. Schema 0 is none."""
-        channel_id = len(self._channels) + 1
+        channel_id = len(self._summary.channels) + 1
         channel = Channel(
             id=channel_id,
             topic=topic,
@@ -140,9 +268,8 @@ class Container:
             schema_id=schema_id,
             metadata=dict(metadata),
         )
-        self._channels.append(channel)
-        self._counts[channel_id] = 0
-        self._into_chunk(_bytes_of(channel))
+        self._summary.channels.append(channel)
+        self._into_chunk(bytes_of(channel))
         return channel_id
 
     def add_message(self, channel_id: int, sequence: int, log_ns: int, publish_ns: int, data: bytes) -> None:
@@ -150,96 +277,47 @@ class Container:
         index = self._index.get(channel_id)
         if index is None:
             index = self._index[channel_id] = []
-        index += (log_ns, self._size)
+        index += (log_ns, self._open)
         length = _MESSAGE_FIXED + len(data)
         self._parts += (_MESSAGE.pack(5, length, channel_id, sequence & 0xFFFFFFFF, log_ns, publish_ns), data)
-        self._size += 9 + length
-        if self._size >= CHUNK_BYTES:
+        self._open += 9 + length
+        if self._open >= CHUNK_BYTES:
             self.flush()
 
     def flush(self) -> None:
         """End the chunk in progress and put it to the file; without a message in it, nothing happens."""
         if not self._index:
             return
-        records = b"".join(self._parts)
-        compressed = self._compressor.compress(records)
-        times = [(min(entries[0::2]), max(entries[0::2])) for entries in self._index.values()]
-        first, last = min(time[0] for time in times), max(time[1] for time in times)
-        chunk = _bytes_of(
-            Chunk(
-                compression="zstd",
-                data=compressed,
-                message_start_time=first,
-                message_end_time=last,
-                uncompressed_crc=zlib.crc32(records),
-                uncompressed_size=len(records),
-            )
-        )
-        pieces, offset, offsets = [chunk], self._offset + len(chunk), {}
-        for channel_id, entries in self._index.items():
-            offsets[channel_id] = offset
-            payload = struct.pack(f"<{len(entries)}Q", *entries)
-            pieces.append(_INDEX.pack(Opcode.MESSAGE_INDEX, 6 + len(payload), channel_id, len(payload)) + payload)
-            offset += len(pieces[-1])
-        summary = ChunkIndex(
-            message_start_time=first,
-            message_end_time=last,
-            chunk_start_offset=self._offset,
-            chunk_length=len(chunk),
-            message_index_offsets=offsets,
-            message_index_length=offset - self._offset - len(chunk),
-            compression="zstd",
-            compressed_size=len(compressed),
-            uncompressed_size=len(records),
-        )
-        self._write(b"".join(pieces))
-        self._chunks.append(summary)
-        for channel_id, entries in self._index.items():
-            self._counts[channel_id] += len(entries) // 2
-        self._start_ns = first if self._start_ns is None else min(self._start_ns, first)
-        self._end_ns = max(self._end_ns, last)
-        self._parts, self._size, self._index = [], 0, {}
+        data, index = chunk_of(b"".join(self._parts), self._index, self.size)
+        self._write(data)
+        self._summary.add_chunk(index, {channel: len(entries) // 2 for channel, entries in self._index.items()})
+        self._parts, self._open, self._index = [], 0, {}
 
     def finish(self) -> None:
         """Write the last chunk, the summary and the footer; the file is then complete."""
         self.flush()
-        self._write(_bytes_of(DataEnd(self._crc)))
-        statistics = Statistics(
-            message_count=sum(self._counts.values()),
-            schema_count=len(self._schemas),
-            channel_count=len(self._channels),
-            attachment_count=len(self._attachments),
-            metadata_count=len(self._metadata),
-            chunk_count=len(self._chunks),
-            message_start_time=self._start_ns or 0,
-            message_end_time=self._end_ns,
-            channel_message_counts={channel: count for channel, count in self._counts.items() if count},
-        )
-        groups: list[tuple[Opcode, list[bytes]]] = [
-            (Opcode.SCHEMA, [_bytes_of(record) for record in self._schemas]),
-            (Opcode.CHANNEL, [_bytes_of(record) for record in self._channels]),
-            (Opcode.STATISTICS, [_bytes_of(statistics)]),
-            (Opcode.CHUNK_INDEX, [_bytes_of(record) for record in self._chunks]),
-            (Opcode.ATTACHMENT_INDEX, [_bytes_of(record) for record in self._attachments]),
-            (Opcode.METADATA_INDEX, [_bytes_of(record) for record in self._metadata]),
-        ]
-        summary_start = position = self._offset
-        summary, offsets = b"", b""
-        for opcode, records in groups:
-            group = b"".join(records)
-            if group:
-                offsets += _bytes_of(SummaryOffset(group_opcode=opcode, group_start=position, group_length=len(group)))
-            summary += group
-            position += len(group)
-        tail = summary + offsets
-        # The summary's CRC covers the footer too, up to the CRC itself.
-        crc = zlib.crc32(tail + struct.pack("<BQQQ", Opcode.FOOTER, 20, summary_start, position))
-        footer = Footer(summary_start=summary_start, summary_offset_start=position, summary_crc=crc)
-        self._write(tail + _bytes_of(footer) + MAGIC)
+        self._write(self._summary.tail(self._crc, self.size))
+
+    def abandon(self) -> dict[int, int]:
+        """After an OSError: end the file with what is in it, as well as the disk allows.
+
+        Returns
+        -------
+        How many messages of each channel are not in it: those of the chunk in progress.
+        """
+        lost = {channel: len(entries) // 2 for channel, entries in self._index.items()}
+        self._parts, self._open, self._index = [], 0, {}
+        for tail in (self._summary.tail(self._crc, self.size), bare_tail(self._crc)):
+            try:
+                self._write(tail)
+            except OSError:
+                continue
+            break
+        return lost
 
     def _into_chunk(self, record: bytes) -> None:
         self._parts.append(record)
-        self._size += len(record)
+        self._open += len(record)
 
     def _write(self, data: bytes) -> None:
         """Put a piece to the file, whole or not at all."""
@@ -248,14 +326,14 @@ class Container:
             while rest:
                 rest = rest[self._output.write(rest) or 0 :]
         except OSError:
-            self._output.truncate(self._offset)
-            self._output.seek(self._offset)
+            self._output.truncate(self.size)
+            self._output.seek(self.size)
             raise
-        self._offset += len(data)
+        self.size += len(data)
         self._crc = zlib.crc32(data, self._crc)
 
 
-def _bytes_of(record: McapRecord) -> bytes:
+def bytes_of(record: McapRecord) -> bytes:
     """A record as it stands in the file."""
     builder = RecordBuilder()
     record.write(builder)

@@ -24,6 +24,7 @@ from typing import Self
 from logs import schema
 from logs.container import Attachment, Container, Direction
 from logs.errors import RecordingError
+from logs.lock import lock
 from logs.transcode import Transcoder, transcoder
 from wire.datagram import Address
 from wire.framing import Framer
@@ -96,6 +97,7 @@ class Recorder:
             raise RecordingError(path, "the file exists already; a recording is never overwritten") from None
         except OSError as error:
             raise RecordingError(path, f"cannot make the file: {error.strerror or error}") from error
+        lock(self._file)  # for as long as this process lives: nobody recovers what is still being written
         try:
             self._container = Container(self._file)
             self._container.add_metadata("schema", {"version": str(schema.SCHEMA_VERSION), "dialect": "all"})

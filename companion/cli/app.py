@@ -192,6 +192,16 @@ def log_info(log: LogFile, json: Json = False) -> None:
     raise typer.Exit(show_info(log, json))
 
 
+@log_app.command("recover")
+def log_recover(
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recordings (MCAP).")], json: Json = False
+) -> None:
+    """Make recordings whole that were not closed, cut short or damaged, in place (exit 3: something is lost)."""
+    from companion.cli.log import recover_logs
+
+    raise typer.Exit(recover_logs(logs, json))
+
+
 FLIGHT_KEYS = (
     *("mission", "seed", "duration_s", "path_length_m", "tracking_error_p95_m", "min_clearance_m"),
     *("setpoint_rate_hz", "setpoint_gap_max_ms", "recording"),

@@ -6,7 +6,12 @@ from rich.console import Console
 from rich.table import Table
 
 from companion.cli import show
+from logs.errors import RecordingError
 from logs.info import RecordingInfo, info
+from logs.recovery import recover
+
+LOSSY = 3
+"""Exit code of a recovery that could not keep everything."""
 
 
 def show_info(path: Path, as_json: bool) -> int:
@@ -17,6 +22,38 @@ def show_info(path: Path, as_json: bool) -> int:
     else:
         _print(found, Console())
     return 0
+
+
+def recover_logs(paths: list[Path], as_json: bool) -> int:
+    """Make recordings whole, in place; exit code 0 when nothing was lost, 3 when something was, 1 for one refused."""
+    out, results, code = Console(), [], 0
+    for path in paths:
+        try:
+            done = recover(path)
+        except RecordingError as error:
+            code = 1
+            results.append({"path": str(path), "ok": False, "failure": error.reason})
+            if not as_json:
+                out.print(show.plain(str(error)), soft_wrap=True)
+            continue
+        code = code or (LOSSY if done.lossy else 0)
+        results.append(
+            {
+                "path": str(path),
+                "ok": not done.lossy,
+                "failure": None,
+                "changed": done.changed,
+                "messages": done.messages,
+                "chunks": done.chunks,
+                "lost_bytes": done.lost_bytes,
+                "problem": done.problem,
+            }
+        )
+        if not as_json:
+            out.print(show.plain(str(done)), soft_wrap=True)
+    if as_json:
+        show.print_json({"ok": code == 0, "recordings": results})
+    return code
 
 
 def _json(found: RecordingInfo) -> dict[str, object]:
