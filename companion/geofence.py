@@ -18,6 +18,8 @@ from planner import Cylinder, Prism
 from planner.prism import MOST_CORNERS
 from planner.worlds import Obstacle
 
+MARGIN = 0.3
+"""What a reference keeps from a fence that says nothing of it, if the ways keep as much [m]."""
 CIRCLE_CORNERS = 96
 """Of the polygon inside a circle to stay in: it gives away 0.05 % of the radius."""
 MOST_INCLUDED = 16
@@ -68,16 +70,17 @@ class FenceModel(Model):
     include: Annotated[list[Area], Field(default_factory=list, max_length=MOST_INCLUDED)]  # stay in each
     exclude: Annotated[list[Area], Field(default_factory=list, max_length=1000)]  # stay out of each
     ceiling: Size | None = None  # altitude [m]
-    margin: Annotated[float, Field(ge=0, le=100)] = 0.3  # no reference nearer to the fence than this [m]
+    margin: Annotated[float, Field(ge=0, le=100)] | None = None  # a reference nearer to the fence than this waits [m]
 
-    def geofence(self) -> "Geofence":
+    def geofence(self, kept: float = math.inf) -> "Geofence":
+        """The fence of a mission whose ways keep `kept` [m] from it."""
         return Geofence(
             include=tuple(a.outline() for a in self.include if a.circle is None),
             within=tuple(a.round() for a in self.include if a.circle is not None),
             exclude=tuple(a.outline() for a in self.exclude if a.circle is None),
             circles=tuple(a.round() for a in self.exclude if a.circle is not None),
             ceiling=math.inf if self.ceiling is None else self.ceiling,
-            margin=self.margin,
+            margin=min(MARGIN, kept) if self.margin is None else self.margin,
         )
 
 
@@ -100,7 +103,7 @@ class Geofence:
     exclude: tuple[Outline, ...] = ()
     circles: tuple[Round, ...] = ()
     ceiling: float = math.inf
-    margin: float = 0.3
+    margin: float = MARGIN
 
     def inside(self, position_m: Sequence[float] | FloatArray) -> float:
         """Distance [m] of a point (3,) (NED) to the fence: positive inside, negative beyond it."""

@@ -251,6 +251,16 @@ class Mission(Model):
         """Whether the flight goes by what the vehicle sees, too."""
         return self.sensing is not None and self.sensing.use
 
+    def kept(self) -> float:
+        """Distance [m] that every way of the mission keeps from what is told, the fence included.
+
+        A way planned anew by what is seen may keep as little as the hull.
+        """
+        if self.senses():
+            return self.vehicle.radius
+        own = [step.clearance for step in self.steps if step.clearance is not None]
+        return self.vehicle.radius + min([self.limits.clearance, *own])
+
     def seen_radius(self) -> float:
         """Distance [m] kept from what is seen on the way: the hull and `sensing.clearance`."""
         own = None if self.sensing is None else self.sensing.clearance
@@ -269,7 +279,7 @@ class Mission(Model):
 
     def geofence(self) -> Geofence | None:
         """Where the mission may fly, if it says so."""
-        return None if self.fence is None else self.fence.geofence()
+        return None if self.fence is None else self.fence.geofence(self.kept())
 
     def geodetic_origin(self) -> Geodetic | None:
         """Where on the earth the mission frame is, if it is known."""
@@ -297,6 +307,9 @@ class Mission(Model):
         fence = self.geofence()
         if fence is None:
             return []
+        if fence.margin > self.kept():
+            why = "vehicle.radius, all that ways by what is seen keep" if self.senses() else "what every way keeps"
+            return [(["fence", "margin"], f"found {fence.margin:g}, expected at most {self.kept():g} ({why})")]
         places: list[tuple[list[Any], Vector]] = []
         if not self.vehicle.start.anywhere:
             places.append((["vehicle", "start"], self.start_m()))

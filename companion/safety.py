@@ -20,6 +20,7 @@ ESTIMATOR_S = 1.5
 HEARD_S = 1.5
 """A vehicle heard within this is there: its HEARTBEAT comes once a second."""
 ADRIFT_M, ASTRAY_M = 1.0, 2.0
+ROUNDING_M = 1e-6
 STALLED_S = 0.5
 BATTERY_LOW, BATTERY_CRITICAL = 0.15, 0.07
 TROUBLE_S = 30.0
@@ -225,7 +226,7 @@ def _doubted(w: Watch) -> str:
 
 
 def _at_the_fence(w: Watch) -> str:
-    return "too near the fence" if w.fence_m is not None and w.fence_m < 0.0 else ""
+    return "too near the fence" if w.fence_m is not None and w.fence_m < -ROUNDING_M else ""
 
 
 _IN_AIR = _FLOWN | {Phase.LINK_LOST}

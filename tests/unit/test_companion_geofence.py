@@ -85,7 +85,11 @@ SQUARE = "{include: [{corners: [{north: 0, east: 0}, {north: 9, east: 0}, {north
         ("{exclude: [{circle: {north: 1, east: 1.5, radius: 1}}]}", 2, "vehicle.start: found a place 0.50 m outside"),
         ("{exclude: [{circle: {north: 5, east: 0, radius: 2.5}}]}", 9, "steps.3.orbit: found a place 0.50 m outside"),
         ("{ceiling: 3.5}", 6, "steps.0.takeoff: found a place 0.25 m too near the fence (it keeps 0.75 m)"),
-        (SQUARE.replace("]}]}", "]}, {circle: {north: 0, east: 0, radius: 5}}]}"), 8, "steps.2.goto: found a place 6.31 m"),
+        (
+            SQUARE.replace("]}]}", "]}, {circle: {north: 0, east: 0, radius: 5}}]}"),
+            8,
+            "steps.2.goto: found a place 6.31 m",
+        ),
         (
             SQUARE.replace("{north: 0, east: 9}", "{north: 0, east: -9}").replace(
                 "north: 9, east: 9", "north: 4, east: 9"
@@ -94,6 +98,7 @@ SQUARE = "{include: [{corners: [{north: 0, east: 0}, {north: 9, east: 0}, {north
             "touches or crosses",
         ),
         ("{include: [{corners: [{north: 0, east: 0}]}]}", 4, "at least 3 items"),
+        ("{margin: 0.8, ceiling: 9}", 4, "fence.margin: found 0.8, expected at most 0.75 (what every way keeps)"),
         ("{include: [{}]}", 4, "expected exactly one of corners, circle"),
     ],
 )
@@ -109,3 +114,12 @@ def test_a_fence_is_solid_to_the_planner_and_nothing_to_see_or_touch():
     assert len(mission.planner_world().obstacles) == 2
     assert mission.planner_world().bounds[0][2] == -6
     assert len(mission.whole_world().obstacles) == 0
+
+
+def test_a_margin_that_is_not_said_is_no_more_than_what_the_ways_keep():
+    text = MISSION % SQUARE
+    assert parse_mission(text.encode(), "f.yaml").geofence().margin == 0.3
+    small = "vehicle: {radius: 0.1, start" + text.partition("vehicle: {start")[2]
+    small = text.partition("vehicle: {start")[0] + small + "limits: {clearance: 0.1}\n"
+    assert parse_mission(small.encode(), "f.yaml").geofence().margin == pytest.approx(0.2)
+    assert parse_mission((small + "sensing: {use: true}\n").encode(), "f.yaml").geofence().margin == 0.1

@@ -9,6 +9,7 @@ import pytest
 from companion.autopilots import AUTOPILOTS
 from companion.core import Companion, CompanionConfig
 from companion.drivers.planning import InlinePlanning
+from companion.geofence import Geofence
 from companion.missionfile import parse_mission
 from companion.phases import TRANSITIONS, Event, Phase
 from companion.safety import SAFETY, Action
@@ -160,6 +161,10 @@ def never_returns(puppet):
     puppet.companion.itinerary._start = np.array([2.0, 2.0, 0.0])  # and no plan is ever answered
 
 
+def comes_near_the_fence(puppet):
+    puppet.companion.setpoints.fence = Geofence(ceiling=2.2, margin=0.3)  # it flies at 2 m
+
+
 def stalls(puppet):
     puppet.tick(700_000)
 
@@ -180,6 +185,7 @@ ROWS = [
     ("stranded", FLYING, no_way, 29.0, 30.2, Phase.LANDING, r"no safe way for 30 s \(walled in\)"),
     ("blind for long", FLYING, sees_nothing, 29.0, 30.2, Phase.LANDING, r"nothing seen for 30 s \(no scan"),
     ("held for long", FLYING, says(ratio=1.5), 31.8, 32.3, Phase.LANDING, r"held for 30 s \(the estimator rejects vel"),
+    ("held for long", FLYING, comes_near_the_fence, 29.8, 30.3, Phase.LANDING, r"held for 30 s \(too near the fence\)"),
     ("takeoff late", Phase.TAKING_OFF, says(landed=GROUND), 33.0, 35.0, Phase.LANDING, "not in the air 34 s"),
     (
         "rejoining late",
@@ -221,10 +227,11 @@ def test_a_row_of_the_table_leads_where_it_says_and_not_before(
     [
         (says(says_position=False), 0.6, "no position for 0.5 s"),
         (says(ratio=1.5), 2.1, "the estimator rejects velocity"),
+        (comes_near_the_fence, 0.1, "too near the fence"),
         (says(silent_on=("HEARTBEAT",)), 3.1, "no HEARTBEAT for 3 s, so its mode may be another's"),
         (says(silent_on=("ESTIMATOR_STATUS", "EKF_STATUS_REPORT")), 2.1, "no word of the estimator for 2 s"),
     ],
-    ids=["position late", "estimate doubted", "no heartbeat", "estimate unknown"],
+    ids=["position late", "estimate doubted", "at the fence", "no heartbeat", "estimate unknown"],
 )
 def test_a_row_that_holds_stands_on_the_path_and_goes_on_when_it_is_over(flavour, happens, after_s, why):
     puppet = Puppet(flavour, FLYING)
@@ -233,7 +240,7 @@ def test_a_row_that_holds_stands_on_the_path_and_goes_on_when_it_is_over(flavour
     assert companion.phase is FLYING
     assert companion.itinerary.stopped
     assert f"holding: {why}" in puppet.notes
-    puppet.says_position, puppet.ratio, puppet.silent_on = True, 0.1, ()
+    puppet.says_position, puppet.ratio, puppet.silent_on, puppet.companion.setpoints.fence = True, 0.1, (), None
     puppet.run(0.2)
     assert companion.phase is FLYING
     assert not companion.itinerary.stopped
