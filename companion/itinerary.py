@@ -34,6 +34,8 @@ DETOURS = 3_000_000
 """Their goals are numbered from here; nobody plans them on the ground."""
 HERE = 1e-3
 """A place nearer than this needs no plan [m]."""
+LOOK_S = 0.05
+"""Spacing of the looks at when a leg passes its points [s]."""
 AT_REST = 1e-3
 """[m/s]"""
 
@@ -162,6 +164,11 @@ class Itinerary:
             end_us = walk.entered_us + round(duration * 1e6)
             if walk.pace.at(now_us).us < end_us:
                 break
+            if walk.leg.rest and walk.leg.planned is not None:
+                here = walk.leg.planned.position(walk.leg.planned.duration)
+                walk.leg.planned, walk.open_ended, walk.entered_us = rest_at(here), True, end_us
+                self.leave_out_place()
+                break
             if walk.released:  # at an order, not by the clock
                 end_us = round(walk.pace.at(now_us).us)
             self._leave()
@@ -264,23 +271,41 @@ class Itinerary:
             return None
         return self._waiting_at(now_us)
 
-    def detour(self, now_us: int, here: FloatArray) -> bool:
-        """From rest at `here` (3,) to where it should stand, by what is seen; False as long as that still moves."""
+    def detour(self, now_us: int, here: FloatArray, skip_s: float = 0.0) -> bool:
+        """From rest at `here` (3,) to where it should stand, by what is seen; False as long as that still moves.
+
+        With `skip_s` it is to go on from farther along its path [s], and not to fly what is before that.
+        """
         walk = self._below
         state = paced(walk.motion(walk.seconds(now_us)), walk.pace.at(now_us))
         if float(np.linalg.norm(state.velocity)) > AT_REST or self._asked is not None:
             return False
+        if walk.entered_us is not None:
+            walk.entered_us -= round(skip_s * 1e6)
         self._requests += 1
-        wanted = self._wanted(DETOURS + self._requests, here, state.position)
-        self._detour = Walk([Leg(self.step, state.position, wanted, rest_at(here))], entered_us=now_us, open_ended=True)
+        goal = self._waiting_at(now_us)
+        wanted = self._wanted(DETOURS + self._requests, here, goal)
+        self._detour = Walk([Leg(self.step, goal, wanted, rest_at(here))], entered_us=now_us, open_ended=True)
         return True
 
-    def leave_out_via(self) -> bool:
-        """Let the leg under way lead to its goal alone, however it gets there; False where it has no plan."""
-        leg = self._top.leg
-        if leg.wanted is None or leg.planned is None:
+    def by_places(self, now_us: int) -> bool:
+        """Fly to the points on the way that are ahead one by one, planned by what is seen; False without any points."""
+        leg, here = self._top.leg, self._top.seconds(now_us)
+        if leg.wanted is None or leg.planned is None or not leg.wanted.via_m:
             return False
-        leg.wanted = replace(leg.wanted, via_m=())
+        times = np.linspace(0.0, leg.planned.duration, 1 + math.ceil(leg.planned.duration / LOOK_S))
+        track = leg.planned.position(times)
+        passes = [times[int(np.argmin(((track - point) ** 2).sum(axis=1)))] for point in leg.wanted.via_m]
+        goal, *leg.rest = [*(p for p, at in zip(leg.wanted.via_m, passes, strict=True) if at > here), leg.wanted.goal_m]
+        leg.wanted = replace(leg.wanted, goal_m=goal, via_m=())
+        return True
+
+    def leave_out_place(self) -> bool:
+        """Let the leg lead to the place after its goal; False where there is none."""
+        leg = self._top.leg
+        if leg.wanted is None or not leg.rest:
+            return False
+        leg.wanted = replace(leg.wanted, goal_m=leg.rest.pop(0))
         return True
 
     # ---- orders -------------------------------------------------------------------------------------------------

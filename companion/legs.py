@@ -36,6 +36,7 @@ class Leg:
     planned : that trajectory, once there is one.
     then : what needs no plan: a climb, a circle.
     seconds : [s]; inf: until somebody orders otherwise.
+    rest : where it leads after its goal, place by place, once its points on the way are flown to one by one.
     """
 
     step: Step
@@ -44,6 +45,7 @@ class Leg:
     planned: Trajectory | None = None
     then: list[Path] = field(default_factory=list)
     seconds: float = 0.0
+    rest: list[Vector] = field(default_factory=list)
 
     @property
     def paths(self) -> list[Path]:

@@ -1,13 +1,19 @@
-"""A look ahead on what is flown as it was planned: circles, legs with points on the way, and standing.
+"""A look ahead on what is flown as it was planned: climbs, circles, legs with points on the way, and standing.
 
 `replanning` looks after legs to one goal. These it cannot plan again, so the way ahead is held against what is seen:
-a circle is stopped on before it, until it is gone; of a leg the points on the way are left out, and then it is a leg to
-one goal. A vehicle that stands where something comes begins a detour (`itinerary`), which `replanning` looks after:
-out of the way on what is proved, and back.
+
+    climb       stopped on while something crosses ahead, unless it would be met there
+    circle      stopped on before what is in the way; when that stays, flown round to where the circle is clear again
+    points      are flown to one by one from then on, and left out where there is no way: legs to one goal
+    standing    a detour (`itinerary`) out of the way of what comes, on what is proved, and back
+    landing     waits while something is about to cross the column under it, for a minute at most
 """
+
+import math
 
 import numpy as np
 
+from companion.column import landing_crossed_s
 from companion.guard import first_violation
 from companion.itinerary import Itinerary
 from companion.mission import Mission
@@ -22,6 +28,10 @@ AHEAD_S = 2.5
 SPARE = 0.1
 """Kept beyond the hull [m]."""
 PATIENCE_US = 1_000_000
+AROUND_US, AROUND_EVERY_S, AROUND_MOST_S = 5_000_000, 0.1, 120.0
+"""What stays on a circle for so long is flown round; how finely, and how far on, it is looked for a place behind it."""
+LONGEST_WAIT_US = 60_000_000
+"""Above a landing, until nothing is about to cross the column; then it lands all the same."""
 
 
 class Lookout:
@@ -32,42 +42,95 @@ class Lookout:
 
     def __init__(self, mission: Mission, itinerary: Itinerary, sight: Sight) -> None:
         self.trouble = ""
-        self._itinerary, self._sight = itinerary, sight
+        self._mission, self._itinerary, self._sight = mission, itinerary, sight
         self._keep = mission.vehicle.radius + SPARE
         self._due_us = 0
         self._since_us: int | None = None  # it stands before something
+        self._round_us = 0  # when it is looked next for a place behind it
+        self._waits_us: int | None = None  # since when it could land
+        self._said: list[Note] = []
 
-    def step(self, flight_us: int) -> list[Note]:
-        """Once a tick while FLYING: what people should know."""
-        if flight_us < self._due_us:
-            return []
-        self._due_us = flight_us + PERIOD_US
-        if self._itinerary.away:
-            return []  # that is planned again and again
-        aim, points = self._itinerary.aim(), self._itinerary.ahead(flight_us, AHEAD_S, EVERY_S)
+    def step(self, flight_us: int, climbing: bool = False) -> list[Note]:
+        """Once a tick while FLYING, or climbing by setpoints: what people should know."""
+        if flight_us >= self._due_us:
+            self._due_us = flight_us + PERIOD_US
+            if climbing:
+                self._look_up(flight_us)
+            elif not self._itinerary.away:  # else that is planned again and again
+                self._look(flight_us)
+        said, self._said = self._said, []
+        return said
+
+    def may_land(self, flight_us: int) -> bool:
+        """Whether nothing is about to cross the column under it; after a minute, whatever is."""
+        place = self._itinerary.reference(flight_us).position_m
+        crossed_s = landing_crossed_s(self._mission, self._sight.tracks, flight_us, place)
+        if crossed_s == math.inf:
+            return True
+        if self._waits_us is None:
+            self._waits_us = flight_us
+            self._tell(Level.INFO, f"the landing waits: something crosses it in {crossed_s:.1f} s")
+        return flight_us - self._waits_us > LONGEST_WAIT_US
+
+    def _look(self, flight_us: int) -> None:
+        itinerary = self._itinerary
+        itinerary.blocked &= self._since_us is not None  # not from the climb
+        points = itinerary.ahead(flight_us, AHEAD_S, EVERY_S)
         in_the_way = points is not None and self._touched(flight_us, points)
-        step = f"step {self._itinerary.index}"
-        if in_the_way and aim is not None and aim.via_m and self._itinerary.leave_out_via():
-            return [Note(Level.WARNING, f"{step}: something is in the way: the points on the way are left out")]
-        place = self._itinerary.standing(flight_us)
+        step = f"step {itinerary.index}"
+        if in_the_way and itinerary.by_places(flight_us):
+            self._tell(Level.WARNING, f"{step}: something is in the way: planned by what is seen, point by point")
+            return
+        place = itinerary.standing(flight_us)
         if place is not None and self._touched(flight_us, np.tile(place, (round(AHEAD_S / EVERY_S) + 1, 1))):
-            self._itinerary.detour(flight_us, place)
-        if in_the_way and self._since_us is None:
-            self._since_us, self._itinerary.blocked = flight_us, True
-            return [Note(Level.WARNING, f"{step}: something is in the way: stopping before it")]
-        if in_the_way and self._since_us is not None and flight_us - self._since_us > PATIENCE_US:
+            itinerary.detour(flight_us, place)
+        elif in_the_way and self._since_us is None:
+            self._since_us, itinerary.blocked = flight_us, True
+            self._round_us = flight_us + AROUND_US
+            self._tell(Level.WARNING, f"{step}: something is in the way: stopping before it")
+        elif in_the_way and place is not None and flight_us >= self._round_us and self._go_round(flight_us, place):
+            self._since_us, itinerary.blocked, self.trouble = None, False, ""
+            self._tell(Level.INFO, f"{step}: something stays in the way: round it")
+        elif in_the_way and self._since_us is not None and flight_us - self._since_us > PATIENCE_US:
             self.trouble = f"{step}: something stays in the way"
-        if not in_the_way and self._since_us is not None:
-            self._since_us, self._itinerary.blocked, self.trouble = None, False, ""
-            return [Note(Level.INFO, f"{step}: the way is free again")]
-        return []
+        elif not in_the_way and self._since_us is not None:
+            self._since_us, itinerary.blocked, self.trouble = None, False, ""
+            self._tell(Level.INFO, f"{step}: the way is free again")
 
-    def _touched(self, flight_us: int, points: FloatArray) -> bool:
+    def _look_up(self, flight_us: int) -> None:
+        """On a climb: stop while that keeps out of the way of what crosses it, and going on does not."""
+        points = self._itinerary.ahead(flight_us, AHEAD_S, EVERY_S)
+        if points is None:
+            return
+        here = np.tile(points[0], (len(points), 1))
+        stops = self._touched(flight_us, points) and not self._touched(flight_us, here)
+        if stops and not self._itinerary.blocked:
+            self._tell(Level.WARNING, "something crosses the climb: stopping below it")
+        self._itinerary.blocked = stops
+
+    def _go_round(self, flight_us: int, place: FloatArray) -> bool:
+        """Begin a detour to where the circle is clear again; False as long as there is no such place."""
+        self._round_us = flight_us + PATIENCE_US
+        points = self._itinerary.ahead(flight_us, AROUND_MOST_S, AROUND_EVERY_S)
+        if points is None:
+            return False
+        radius = self._mission.seen_radius()
+        taken = np.array([self._touched(flight_us, point[None], radius) for point in points])
+        stretch = round(AHEAD_S / AROUND_EVERY_S)
+        for k in range(int(np.argmax(taken)) if taken.any() else len(points), len(points)):
+            if not taken[k : k + stretch].any():
+                return self._itinerary.detour(flight_us, place, AROUND_EVERY_S * k)
+        return False
+
+    def _touched(self, flight_us: int, points: FloatArray, radius: float | None = None) -> bool:
         """Whether what is seen is too near to the points (m, 3), flown one each `EVERY_S` from now on."""
         seen = self._sight.map
-        stretch = float(np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1)).max())
+        apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
         times: FloatArray = flight_us / 1e6 + EVERY_S * np.arange(len(points), dtype=np.float64)
         cells = np.array([seen.resolution, seen.column, *seen.z])
         movers = table(self._sight.tracks.movers())
-        keep = self._keep + 0.5 * stretch
+        keep = (self._keep if radius is None else radius) + 0.5 * float(apart.max(initial=0.0))
         return first_violation(times, points, seen.low, seen.high, seen.window, cells, movers, keep) >= 0
+
+    def _tell(self, level: Level, text: str) -> None:
+        self._said.append(Note(level, text))

@@ -18,6 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from companion.column import climb_crossed_s
 from companion.guard import clear_for
 from companion.hooks import Pose
 from companion.itinerary import Itinerary
@@ -34,14 +35,12 @@ DRIFT_M, DRIFT_US = 0.5, 300_000
 RESTING_US = 500_000
 """Between two questions of a vehicle that rests where nothing moves."""
 LATE = 3
-COLUMN_S, COLUMN_GROWTH = 3.0, 0.1
-"""Beside climb or descent itself its column is to be clear for so long [s]; a mover's uncertainty there [m/s]."""
-DESCENT = 0.5
-"""A slow landing [m/s]."""
 LADDER = (1.0, 0.85, 0.7)
 """Parts of the radius with which a plan from scratch is tried in turn, where noise has put cells within the radius."""
 TIGHTEST = 0.03
 """Hull to what is seen, at least [m]; the guard keeps the same."""
+ELSEWHERE = 1e-3
+"""A way that ends so far from the goal does not lead to it [m]."""
 AWAY_SPARE = 0.1
 """What a step out of the radius may come nearer than where it begins, by the newest map [m]."""
 STANDING_US = 1_000_000
@@ -50,8 +49,6 @@ FORGIVEN, RECENT_US = 1, 2_000_000
 """How often on a leg, when nothing on the ladder leads on, what was not seen so lately is forgotten."""
 AGAIN_US, AGAIN_LATER_US = 500_000, 1_500_000
 """Between two plans from scratch; and how much more when the ladder has been climbed in vain."""
-LONGEST_STAY_US = 60_000_000
-"""At the goal, until nothing is about to cross the column under it; then it goes on all the same."""
 PATIENCE_US = 1_000_000
 """At a stop for so long, and it is told that there is no way on."""
 
@@ -99,9 +96,7 @@ class Replanning:
         self._stopped_us = 0
         self._on_track_us = 0
         self._lost = False
-        self._stays_us = 0  # when the goal was reached first
         self._forgiven = 0  # times the map was cut down to what is in sight, on this leg
-        self._at_goal = False  # the stop is one at the goal, until what crosses it is gone
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         """An answer; what was not asked for, or is too late, is dropped."""
@@ -114,31 +109,8 @@ class Replanning:
 
     def in_the_way(self, flight_us: int) -> str:
         """What is about to cross the climb, before anything has left the ground; or nothing."""
-        climb = self._mission.steps[0].takeoff
-        top = 0.0 if climb is None else climb.altitude
-        north, east, _ = self._mission.start_m()
-        crossed_s = self._crossed(flight_us, north, east, -top, top / self._mission.limits.climb)
+        crossed_s = climb_crossed_s(self._mission, self._sight.tracks, flight_us)
         return "" if crossed_s == math.inf else f"something crosses the climb in {crossed_s:.1f} s"
-
-    def _crossed(self, flight_us: int, north: float, east: float, top: float, takes_s: float) -> float:
-        """When a mover comes too near to the column from the height `top` (down) to the ground [s]; inf: not soon.
-
-        The world's bounds are walls: what gets to one is taken to come back from it.
-        """
-        low, high = self._mission.planner_world().walls
-        ahead = np.arange(0.0, COLUMN_S + takes_s, 0.1)
-        soonest = math.inf
-        for mover in self._sight.tracks.movers():
-            age = flight_us / 1e6 - mover.stamp + ahead
-            straight = np.array(mover.centre) + age[:, None] * np.array(mover.velocity)
-            for way in (straight, _folded(straight, low + mover.radius, high - mover.radius)):
-                foot = np.column_stack(
-                    (np.full((len(way), 1), north), np.full(len(way), east), way[:, 2].clip(top, 0.0))
-                )
-                near = self._mission.seen_radius() + mover.radius + COLUMN_GROWTH * ahead
-                met = np.flatnonzero(((way - foot) ** 2).sum(axis=1) < near**2)
-                soonest = min(soonest, float(ahead[met[0]]) if len(met) else math.inf)
-        return soonest
 
     def lost(self) -> None:
         """The vehicle stands elsewhere than what is flown says: begin anew from where it is at the next step."""
@@ -159,6 +131,7 @@ class Replanning:
             self._forget()
             self._aim, self._due_us, self._on_track_us = aim, flight_us, flight_us
             self._sight.jumped, self._forgiven = False, 0
+            flown = self._turned(flight_us, flown)
         flown = self._where_it_is(flight_us, pose, flown)
         scratch = self._cold_answer
         if scratch is not None and scratch.flown is not None and not flown.to_goal and flight_us >= end_us(flown):
@@ -166,7 +139,7 @@ class Replanning:
         if flight_us < self._due_us:
             return []
         boundary = self._due_us
-        flown = self._stay(boundary, self._decide(boundary, flown))
+        flown = self._decide(boundary, flown)
         self._itinerary.follow(flight_us, flown)
         resting = not flown.to_goal and boundary >= end_us(flown) and not len(self._sight.tracks)
         period_us = max(RESTING_US, self._period_us) if resting else self._period_us
@@ -202,6 +175,16 @@ class Replanning:
         self.drifts += 1
         return stop
 
+    def _turned(self, flight_us: int, flown: Flown) -> Flown:
+        """What is flown; the quickest stop instead, where that leads elsewhere than the leg does now."""
+        end = flown.trajectory.position(flown.trajectory.duration)
+        assert self._aim is not None
+        stop = self._dash(flight_us, flown) if flown.to_goal and math.dist(end, self._aim.goal_m) > ELSEWHERE else None
+        if stop is None:
+            return flown
+        self._itinerary.follow(flight_us, stop)
+        return stop
+
     def _decide(self, boundary: int, flown: Flown) -> Flown:
         """What is flown from this boundary on."""
         answer, pending, backup = self._answer, self._pending, self._backup
@@ -234,22 +217,6 @@ class Replanning:
         self._fresh = True
         least = answer.flown if answer is not None and not answer.certified else None
         return self._stop(boundary, flown, backup, least, why)
-
-    def _stay(self, boundary: int, flown: Flown) -> Flown:
-        """What is flown; its end only a stop, as long as something is about to cross the column under the goal.
-
-        So the leg goes on, and with it the planning that gets out of the way and comes back.
-        """
-        over = flown.to_goal and end_us(flown) <= boundary + 2 * self._period_us
-        if not over or not len(self._sight.tracks) or boundary > self._stays_us + LONGEST_STAY_US:
-            self._stays_us = self._stays_us if over else boundary
-            return flown
-        north, east, top = flown.trajectory.position(flown.trajectory.duration).tolist()
-        crossed_s = self._crossed(boundary, north, east, top, -top / DESCENT)
-        if crossed_s == math.inf:
-            return flown
-        self._fresh, self._at_goal = True, True
-        return Flown(Trajectory(flown.trajectory.control_points, flown.trajectory.knots), flown.start_us, to_goal=False)
 
     def _taken(self, flown: Flown, chosen: Flown, answer: ReplanReady) -> Flown:
         self._backup = answer.backup
@@ -352,10 +319,9 @@ class Replanning:
 
     def _from_scratch(self, flight_us: int, flown: Flown) -> list[ReplanWanted]:
         """At a stop, or on the way to one: ask for a plan from where it ends."""
-        if flown.to_goal or self._at_goal:
+        if flown.to_goal:
             self._stopped_us, self.trouble = 0, ""
             self._cold = self._cold_answer = None
-            self._at_goal = False
             return []
         self._stopped_us = self._stopped_us or flight_us
         if flight_us - self._stopped_us > PATIENCE_US and not self.trouble:
@@ -393,7 +359,10 @@ class Replanning:
             tight = self._radius <= self._hull
             self._rung = 0 if tight or self._rung + 1 == len(LADDER) else self._rung + 1
             self._cold_us += 0 if self._rung else AGAIN_LATER_US
-            if self._rung == 0 and self._forgiven < FORGIVEN and boundary - self._stopped_us > PATIENCE_US:
+            vain = self._rung == 0 and boundary - self._stopped_us > PATIENCE_US
+            if vain and self._itinerary.leave_out_place():
+                self._tell(Level.WARNING, f"a point on the way is left out: {answer.reason}")
+            elif vain and self._forgiven < FORGIVEN:
                 self._forgiven += 1
                 self._sight.map.forget_unseen(boundary - RECENT_US)
                 self._tell(Level.WARNING, "no way with all that was seen: looking again at what is out of sight")
@@ -433,12 +402,3 @@ class Replanning:
     def _tell(self, level: Level, text: str) -> None:
         if len(self._said) < 8:
             self._said.append(Note(level, text))
-
-
-def _folded(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
-    """Places (m, 3) on a straight way, reflected by the walls of a block; as they are where the block has no room."""
-    room = high - low
-    with np.errstate(invalid="ignore", divide="ignore"):
-        u = np.abs((points - low) % (2.0 * room))
-    folded: FloatArray = np.where(room > 0.0, low + np.minimum(u, 2.0 * room - u), points)
-    return folded

@@ -66,10 +66,12 @@ class ReplanDesk:
         before = replanner.flight
         decision = replanner.step(self._seconds(wanted.now_us), [self._moved(m) for m in wanted.movers])
         flight = decision.flight
+        leads = flight.to_goal and self._goal == wanted.goal_m  # else to where it led before: a stop
+        flown = None if flight.trajectory is before.trajectory else replace(self._flown(flight), to_goal=leads)
         return ReplanReady(
             request_id=wanted.request_id,
             kind=decision.kind.value,
-            flown=None if flight.trajectory is before.trajectory else self._flown(flight),
+            flown=flown,
             certified=decision.certified and decision.kind is not Kind.NONE,
             clearance=decision.clearance,
             backup=None if decision.backup is None else self._flown(decision.backup),

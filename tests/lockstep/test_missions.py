@@ -457,7 +457,7 @@ sensing: {use: true}
 limits: {speed: 2}
 steps:
   - takeoff: {altitude: 1.5}
-  - via: [{north: 9.5, east: 6.5, altitude: 1.5}]
+  - via: [{north: 9.5, east: 6.5, altitude: 1.5}, {north: 14, east: 9, altitude: 1.5}]
   - goto: {north: 20, east: 3, altitude: 1.5}
   - orbit: {north: 23, east: 10, altitude: 1.5, radius: 3}
   - land
@@ -465,19 +465,23 @@ steps:
 
 
 @pytest.mark.slow
-def test_what_is_seen_on_a_leg_with_points_or_on_a_circle_is_never_flown_into(fly):
+def test_what_is_seen_on_a_leg_with_points_or_on_a_circle_is_flown_round_and_the_points_are_passed(fly):
     flight = fly(SEEN)
-    assert any("the points on the way are left out" in note for note in flight.notes)
+    assert any("planned by what is seen, point by point" in note for note in flight.notes)
     assert any("something is in the way: stopping before it" in note for note in flight.notes)
-    assert flight.companion.phase is Phase.DONE
-    assert "something stays in the way" in flight.verdict.failure
+    assert any("something stays in the way: round it" in note for note in flight.notes)
+    assert flight.verdict.ok, flight.verdict.failure
+    assert any("a point on the way is left out: GoalInCollision" in note for note in flight.notes)  # within the wall
+    _, p, _, _, _ = path(flight)
+    assert np.linalg.norm(p - (14, 9, -1.5), axis=1).min() < 1e-3
+    assert np.hypot(p[-1][0] - 23.0, p[-1][1] - 10.0) == pytest.approx(3.0, abs=1e-3)
     assert flight.verdict.min_clearance_m > 0.05
     smooth(flight)
 
 
 @pytest.mark.slow
 def test_orders_work_while_the_flight_is_replanned_from_what_is_seen(fly):
-    text = SEEN.replace("  - via: [{north: 9.5, east: 6.5, altitude: 1.5}]\n", "").replace(
+    text = SEEN.replace(next(line for line in SEEN.splitlines(keepends=True) if "- via:" in line), "").replace(
         "  - orbit: {north: 23, east: 10, altitude: 1.5, radius: 3}\n", ""
     )
     flight = fly(

@@ -77,9 +77,8 @@ def scan_of_the_wall(puppet, north=6.55, east=(8.0, 12.0)):
     return Datagram(VEHICLE_LINK, bytes(m.pack(puppet.mav)), ("vehicle", 1))
 
 
-def test_the_way_back_to_where_a_mission_waits_leads_round_what_is_seen_and_was_never_told(monkeypatch):
-    monkeypatch.setattr(table, "MISSION", parse_mission(WAITING, "waiting.yaml"))
-    puppet = table.Puppet("px4", Phase.FLYING)
+def test_the_way_back_to_where_a_mission_waits_leads_round_what_is_seen_and_was_never_told():
+    puppet = table.Puppet("px4", Phase.FLYING, parse_mission(WAITING, "waiting.yaml"))
     companion = puppet.companion
     companion.seeing.begin()
     puppet.at = np.array([8.0, 10.0, -2.0])  # blown off, to the other side of a wall

@@ -44,6 +44,9 @@ class Leg:
     def aim(self):
         return self.aimed
 
+    def leave_out_place(self):
+        return False
+
     def follow(self, now_us, flown):
         if flown is not self.what:
             self.joints.append(joint(self.what, flown))
@@ -283,16 +286,14 @@ def test_it_waits_on_the_ground_while_something_crosses_the_climb(place, velocit
     assert bool(flight.replanning.in_the_way(BEGIN_US)) is crosses
 
 
-def test_it_stays_at_the_goal_while_something_crosses_the_descent_and_arrives_then():
+def test_where_the_goal_is_too_near_to_something_no_answer_leads_to_a_goal():
     flight = Flight()
-    flight.run(1.0)
-    while not flight.leg.what.to_goal or flight.now_us < end_us(flight.leg.what) - 500_000:
-        flight.run(0.02)
-    for k in range(150):  # it stands beside the goal's column for three seconds
-        flight.sight.tracks.told(flight.now_us, 1, (28.0, 8.3, -0.5), (0.0, 0.0, 0.0), 0.5)
-        flight.run(0.02)
-        if k > 60:
-            assert flight.leg.flown(flight.now_us) is not None
-    flight.run(6.0)  # it is silent, and forgotten
-    assert flight.leg.flown(flight.now_us) is None
-    assert flight.place() == pytest.approx(GOAL, abs=1e-6)
+    flight.run(0.02)
+    rest = Flown(plan(WORLD, (5.0, 10.0, -2.0), (6.0, 10.0, -2.0), LIMITS, 0.3).trajectory, BEGIN_US, to_goal=False)
+    covered = view(*((100 + i, 100, -50, 0) for i in range(3)))
+    wanted = replace(flight.asked[0], flown=rest, goal_m=(10.0, 10.0, -2.0), map=covered, fresh=True)
+    desk = ReplanDesk(WORLD)
+    for _ in range(3):
+        ready = desk.answer(wanted)
+        assert ready.flown is None or not ready.flown.to_goal
+        wanted = replace(wanted, fresh=False, map=None, now_us=wanted.switch_us, switch_us=wanted.switch_us + PERIOD_US)
