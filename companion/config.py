@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from companion.errors import ConfigError
 from companion.fleet.member import FLEET_LINK
+from companion.yamlfile import read_yaml
 from wire.endpoint import Endpoint
 from wire.errors import EndpointError
 
@@ -154,16 +155,8 @@ def _read(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
             data = stream.read(MAX_BYTES + 1)
     except OSError as error:
         raise ConfigError(str(path), [f"cannot be read: {error.strerror or error}"]) from error
-    if len(data) > MAX_BYTES:
-        raise ConfigError(str(path), [f"found more than {MAX_BYTES} bytes, expected a file that people write"])
-    try:
-        loader = yaml.SafeLoader(data.decode("utf-8"))
-        node = loader.get_single_node()
-        values = None if node is None else loader.construct_document(node)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise ConfigError(str(path), [f"not YAML: {' '.join(str(error).split())[:160]}"]) from error
-    if not isinstance(values, dict) or not isinstance(node, yaml.MappingNode):
-        raise ConfigError(str(path), ["line 1: found no mapping, expected keys such as master"])
+    expected = "a mapping with keys such as master"
+    values, node = read_yaml(data, str(path), ConfigError, most_bytes=MAX_BYTES, expected=expected)
     for key in PATHS:
         if isinstance(values.get(key), str) and values[key]:
             values[key] = str(path.parent / values[key])

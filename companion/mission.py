@@ -155,6 +155,7 @@ class LimitsModel(Model):
     jerk: Annotated[float, Field(ge=0.01, le=1e5)] = 60.0  # [m/s^3]
     climb: Annotated[float, Field(ge=0.3, le=20)] = 1.0  # [m/s] of the takeoff; slower is not seen as one (PX4 disarms)
     clearance: Annotated[float, Field(ge=0, le=100)] = 0.4  # [m] kept by plans between hull and obstacles
+    reach: Annotated[float, Field(ge=1, le=1e7)] = 5000.0  # [m] no place farther from the start: a typo, not a flight
 
 
 class Sensing(Model):
@@ -302,6 +303,27 @@ class Mission(Model):
                 obstacles.append(self._maps[index] if solid is None else solid)
         return World(bounds=_corners(self.world.bounds), obstacles=obstacles)
 
+    def beyond_reach(self) -> list[tuple[list[Any], str]]:
+        """Places of the mission farther from its start than `limits.reach`, as (keys, by how much).
+
+        A digit wrong in a latitude is a flight of kilometres that no battery ends: half a degree is 55 km.
+        """
+        start, reach, found = self.start_m(), self.limits.reach, []
+        for i, step in enumerate(self.steps):
+            named: list[tuple[list[Any], list[Vector]]] = []
+            if step.goto is not None:
+                named = [(["goto"], [step.goto.ned()])]
+            elif step.via is not None:
+                named = [(["via", k], [place.ned()]) for k, place in enumerate(step.via)]
+            elif step.orbit is not None:
+                named = [(["orbit"], step.orbit.ring())]
+            for keys, places in named:
+                far = max(math.dist(start[:2], place[:2]) for place in places)
+                if far > reach:
+                    told = f"found a place {far:.0f} m from the start, expected at most {reach:g} m (limits.reach)"
+                    found.append((["steps", i, *keys], told))
+        return found
+
     def beyond_the_fence(self) -> list[tuple[list[Any], str]]:
         """Places of the mission that its fence does not allow, as (keys, by how much)."""
         fence = self.geofence()
@@ -348,7 +370,7 @@ class Mission(Model):
                 self.planner_world()
             except ValueError as error:
                 problems.append((["world", "obstacles"], str(error)))
-        problems.extend(self.beyond_the_fence())
+        problems.extend(self.beyond_reach() or self.beyond_the_fence())
         return problems
 
 

@@ -17,11 +17,11 @@ from companion.planfiles import is_plan_file, read
 from companion.planfiles.document import ground_plan, mission_document, to_mission
 from companion.planfiles.items import GroundPlan
 from companion.shapes import ORIGIN, Origin
+from companion.yamlfile import line_of, read_yaml, shown
 
 MAX_FILE_BYTES = 1_000_000
 """A mission is written by people; beyond this it is something else."""
-MAX_DEPTH = 32
-"""Of nested lists and mappings; a mission needs seven."""
+EXPECTED = "a mapping with name, vehicle, world, steps"
 
 
 def load_mission(path: str | Path) -> Mission:
@@ -57,33 +57,18 @@ def parse_mission(data: bytes, file: str) -> Mission:
         raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
     if is_plan_file(data):
         return _of_plan(data, file)
-    try:
-        text = data.decode("utf-8")
-        refuse_traps(text, file)
-        loader = yaml.SafeLoader(text)
-        node = loader.get_single_node()
-        document = None if node is None else loader.construct_document(node)
-    except UnicodeDecodeError as error:
-        raise MissionError(file, [f"byte {error.start}: not UTF-8 text"]) from error
-    except yaml.MarkedYAMLError as error:
-        line = error.problem_mark.line + 1 if error.problem_mark else 1
-        raise MissionError(file, [f"line {line}: not YAML: {error.problem or error.context}"]) from error
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        raise MissionError(file, [f"not YAML: {' '.join(str(error).split())[:120]}"]) from error
-    if not isinstance(document, dict):
-        raise MissionError(
-            file, [f"line 1: found {_shown(document)}, expected a mapping with name, vehicle, world, steps"]
-        )
-    twice = _repeated_keys(node)
-    if twice:
-        raise MissionError(file, twice)
+    document, node = read_yaml(data, file, MissionError, most_bytes=MAX_FILE_BYTES, expected=EXPECTED)
+    if "vehicles" in document:
+        where = f"line {line_of(node, ['vehicles'])}: vehicles"
+        told = "found several vehicles, expected one: companion simulate, fly, run and test take such a file"
+        raise MissionError(file, [f"{where}: {told}"])
     try:
         mission = Mission.model_validate(document, context={ORIGIN: _origin(document)})
     except ValidationError as error:
         raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
     found = mission.read_maps(Path(file).parent)
     if found:
-        raise MissionError(file, [f"line {_line(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
+        raise MissionError(file, [f"line {line_of(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
     return mission
 
 
@@ -98,7 +83,7 @@ def _of_plan(data: bytes, file: str) -> Mission:
         raise MissionError(file, [_problem(item, None).partition(": ")[2] for item in error.errors()]) from error
     told = ground_plan(plan)
     mission.keep_ground_plan(told)
-    found = mission.beyond_the_fence()
+    found = mission.beyond_reach() or mission.beyond_the_fence()
     if found:
         raise MissionError(file, [f"{_plan_item(told, k)}{'.'.join(map(str, k))}: {text}" for k, text in found])
     return mission
@@ -119,22 +104,10 @@ def _origin(document: dict[str, Any]) -> Geodetic | None:
         return None
 
 
-def refuse_traps(text: str, file: str) -> None:
-    """What is YAML and yet no mission: aliases, which a few bytes can make endless, and bottomless nesting."""
-    depth = 0
-    for event in yaml.parse(text, Loader=yaml.SafeLoader):
-        line = event.start_mark.line + 1 if event.start_mark is not None else 1
-        if isinstance(event, yaml.AliasEvent):
-            raise MissionError(file, [f"line {line}: found a YAML alias (*name), expected every value written out"])
-        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-        if depth > MAX_DEPTH:
-            raise MissionError(file, [f"line {line}: found more than {MAX_DEPTH} levels of nesting"])
-
-
 def _problem(item: Any, root: yaml.Node | None) -> str:
     """One pydantic error as `line N: key: found ..., expected ...`."""
     keys = [key for key in item["loc"]]
-    line, key = _line(root, keys), ".".join(str(k) for k in keys) or "mission"
+    line, key = line_of(root, keys), ".".join(str(k) for k in keys) or "mission"
     kind, message, context = item["type"], item["msg"].removeprefix("Value error, "), item.get("ctx", {})
     if kind == "missing":
         return f"line {line}: {key}: found nothing, expected a value"
@@ -143,30 +116,13 @@ def _problem(item: Any, root: yaml.Node | None) -> str:
         meant = f"; did you mean {near[0]}?" if near else ""
         return f"line {line}: {key}: found an unknown key, expected one of docs/mission.md{meant}"
     if kind == "model_type":
-        return f"line {line}: {key}: found {_shown(item['input'])}, expected a mapping"
+        return f"line {line}: {key}: found {shown(item['input'])}, expected a mapping"
     if kind == "literal_error":
-        return f"line {line}: {key}: found {_shown(item['input'])}, expected {context.get('expected')}"
+        return f"line {line}: {key}: found {shown(item['input'])}, expected {context.get('expected')}"
     if kind == "value_error":
-        return f"line {line}: {key}: {message}" + ("" if "found" in message else f", found {_shown(item['input'])}")
+        return f"line {line}: {key}: {message}" + ("" if "found" in message else f", found {shown(item['input'])}")
     expected = message.removeprefix("Input should be ").split(", unable")[0]
-    return f"line {line}: {key}: found {_shown(item['input'])}, expected {expected}"
-
-
-def _repeated_keys(root: yaml.Node | None) -> list[str]:
-    """YAML would silently keep the last of two equal keys."""
-    problems, waiting = [], [] if root is None else [root]
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, yaml.MappingNode):
-            seen: set[str] = set()
-            for key, value in node.value:
-                if key.value in seen:
-                    problems.append(f"line {key.start_mark.line + 1}: {key.value}: found twice, expected once")
-                seen.add(key.value)
-                waiting.append(value)
-        elif isinstance(node, yaml.SequenceNode):
-            waiting.extend(node.value)
-    return problems
+    return f"line {line}: {key}: found {shown(item['input'])}, expected {expected}"
 
 
 def all_keys(model: type[BaseModel]) -> set[str]:
@@ -183,28 +139,3 @@ def all_keys(model: type[BaseModel]) -> set[str]:
 def _parts(annotation: Any) -> list[Any]:
     """A type and everything it is made of: of `list[Area] | None` also Area."""
     return [annotation, *(part for inner in get_args(annotation) for part in _parts(inner))]
-
-
-def _shown(value: Any) -> str:
-    if isinstance(value, dict):
-        return "a mapping with " + (", ".join(map(str, list(value)[:6])) or "no keys")
-    if isinstance(value, list):
-        return f"a list of {len(value)}"
-    return "nothing" if value is None else repr(value)[:60]
-
-
-def _line(node: yaml.Node | None, keys: list[Any]) -> int:
-    """Line where the deepest node that the key path reaches is named."""
-    line = 1
-    for key in keys:
-        if isinstance(node, yaml.MappingNode):
-            found = next(((k, v) for k, v in node.value if k.value == str(key)), None)
-            if found is None:
-                break
-            line, node = found[0].start_mark.line + 1, found[1]
-        elif isinstance(node, yaml.SequenceNode) and isinstance(key, int) and key < len(node.value):
-            node = node.value[key]
-            line = node.start_mark.line + 1
-        else:
-            break
-    return line

@@ -48,7 +48,7 @@ class Rows:
 
 
 class Tally:
-    """Counts values that are not negative.
+    """Counts values; what is less than 0 is in the first class.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ class Tally:
         return found
 
     def _classed(self, values: FloatArray) -> NDArray[np.int64]:
-        index = np.minimum((values / self._width).astype(np.int64), len(self._counts) - 1)
+        index = np.clip(values / self._width, 0, len(self._counts) - 1).astype(np.int64)
         counted: NDArray[np.int64] = np.bincount(index, minlength=len(self._counts)).astype(np.int64)
         return counted
 

@@ -12,7 +12,8 @@ import yaml
 
 from companion.errors import MissionError
 from companion.mission import Mission
-from companion.missionfile import MAX_FILE_BYTES, parse_mission, refuse_traps
+from companion.missionfile import MAX_FILE_BYTES, parse_mission
+from companion.yamlfile import read_yaml
 
 MOST_VEHICLES = 32
 KEYS = ("name", "start", "steps")
@@ -39,15 +40,8 @@ def split(data: bytes, file: str) -> list[Part]:
     ------
     MissionError : it is not a mission; what is wrong in one vehicle's part is told by its name.
     """
-    if len(data) > MAX_FILE_BYTES:
-        raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
-    try:
-        text = data.decode("utf-8")
-        refuse_traps(text, file)
-        document = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise MissionError(file, [f"not YAML: {' '.join(str(error).split())[:120]}"]) from error
-    entries = document.get("vehicles") if isinstance(document, dict) else None
+    document, _ = read_yaml(data, file, MissionError, most_bytes=MAX_FILE_BYTES, expected="a mapping with vehicles")
+    entries = document.get("vehicles")
     if not isinstance(entries, list) or not 1 <= len(entries) <= MOST_VEHICLES:
         raise MissionError(file, [f"vehicles: expected a list of 1 to {MOST_VEHICLES}"])
     if "steps" in document:

@@ -116,3 +116,32 @@ def test_bytes_that_are_not_text_and_files_that_are_not_there_are_said_in_one_li
         load_mission(tmp_path / "missing.yaml")
     with pytest.raises(MissionError, match="more than 1000000 bytes"):
         parse_mission(b"#" * 5_000_000, "x")
+
+
+def test_a_place_kilometres_away_is_refused_with_the_distance_until_the_mission_says_that_it_is_meant():
+    far = GOOD.replace("bounds: {north: [0, 20]", "bounds: {north: [0, 90000]")
+    far = far.replace("- land", "- goto: {north: 60001, east: 2, altitude: 1.5}\n  - land")
+    (problem,) = problems(far)
+    assert problem == (
+        "line 13: steps.2.goto: found a place 60000 m from the start, expected at most 5000 m (limits.reach)"
+    )
+    assert parse_mission((far + "limits: {reach: 70000}\n").encode(), "x").limits.reach == 70_000
+
+
+def test_a_latitude_half_a_degree_off_in_a_ground_stations_plan_is_refused_by_its_item():
+    item = "{i}\t0\t3\t{c}\t0\t0\t0\t0\t{lat}\t8.545594\t10\t1\n"
+    rows = [(0, 16, 47.397742), (1, 22, 47.397742), (2, 16, 47.897742), (3, 20, 0.0)]
+    text = "QGC WPL 110\n" + "".join(item.format(i=i, c=c, lat=lat) for i, c, lat in rows)
+    (problem,) = problems(text)
+    assert "found a place 55589 m from the start, expected at most 5000 m" in problem
+
+
+def test_a_mission_of_several_vehicles_where_one_is_wanted_is_told_as_such_and_by_nothing_else():
+    (problem,) = problems(Path("missions/swap.yaml").read_text())
+    assert "vehicles: found several vehicles, expected one: companion simulate, fly, run and test take" in problem
+
+
+def test_a_key_that_is_there_twice_is_refused_in_a_mission_of_several_vehicles_too():
+    text = Path("missions/swap.yaml").read_text() + "\nname: again\n"
+    with pytest.raises(MissionError, match="name: found twice, expected once"):
+        split(text.encode(), "swap.yaml")
