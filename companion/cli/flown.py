@@ -22,6 +22,7 @@ from companion.mission import Mission
 from companion.verdict import FlightMeter, judge
 from logs.errors import RecordingError
 from logs.recorder import Recorder
+from logs.recovery import recover_unfinished
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
@@ -38,6 +39,8 @@ def fly_recorded(
 ) -> int:
     """Prepare, fly, close everything properly, judge; returns the exit code."""
     out = show.console()
+    for recovered in recover_unfinished(file.parent):
+        out.print(show.plain(str(recovered)), soft_wrap=True)
     companion = Companion(mission, config)
     meter = FlightMeter(companion)
     with ExitStack() as stack:

@@ -37,6 +37,7 @@ from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
 from logs.errors import LogsError, RecordingError
 from logs.recorder import Recorder
+from logs.recovery import recover_unfinished
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
@@ -91,6 +92,8 @@ class Service:
                 host, port = stack.enter_context(served(page, telling.board))
                 telling.say(Level.INFO, f"the page is at http://{host}:{port}/")
             telling.say(Level.INFO, f"listening to the vehicle at {self._config.master}")
+            for recovered in recover_unfinished(self._config.record):
+                telling.say(Level.WARNING, str(recovered))
             code = 0
             while not self._signals.asked:
                 ready = self._wait()
