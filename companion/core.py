@@ -62,6 +62,11 @@ ARMED_ELSEWHERE = "somebody else armed the vehicle: it is not taken over"
 INTERRUPTED = (Phase.TAKING_OFF, Phase.REJOINING, Phase.LINK_LOST)
 """Phases after which the mission is flown (again): what is ordered meanwhile is kept."""
 KEPT = ("hold", "goto", "return", "resume")
+CLIMBS = (mavlink.MAV_LANDED_STATE_TAKEOFF, mavlink.MAV_LANDED_STATE_IN_AIR)
+DISARMED_SURE_US = 1_200_000
+"""A HEARTBEAT that comes so long after the last word to arm says what became of it."""
+DISARM_AGAIN_US = 2_000_000
+GIVE_UP_US = 60_000_000
 MOVING = AIRBORNE - {Phase.LANDING}
 STREAM_BEFORE_ASKING_US = 500_000
 """PX4 wants a proof of life of setpoints before it accepts OFFBOARD."""
@@ -158,6 +163,7 @@ class Companion:
         self._landed_instead = False  # of that
         self._returning_us: int | None = None  # since when, on a planned way
         self._no_way_home = ""
+        self._disarm_asked_us = 0
         self._kept: Order | None = None  # until the mission is flown again
         takeoff = mission.steps[0].takeoff
         self._climb_s = 0.0 if takeoff is None else 2.0 * takeoff.altitude / mission.limits.climb
@@ -372,7 +378,7 @@ class Companion:
                 out.append(Note(level, f"{reason} ({rule.action.value})"))
                 self._going_home = rule.action is Action.GO_HOME
                 return rule.event
-        elif self.phase is not Phase.CONNECTING:
+        elif self.phase not in (Phase.CONNECTING, Phase.DISARMING):
             event = self._lost_on_the_ground(now_us, out)
             if event is not None:
                 return event
@@ -517,11 +523,28 @@ class Companion:
             return Event.MODE_LOST
         return Event.REFUSED if self._command_failed(now_us, self.autopilot.arm) else None
 
+    def _disarming(self, now_us: int, out: list[Output]) -> Event | None:
+        """Ask until it says that it is disarmed; it flies after all, or somebody has it: not that."""
+        t, since_us = self.telemetry, now_us - self._entered_us
+        if t.boots != self._boots:
+            return Event.REBOOTED
+        if t.armed and t.landed_state in CLIMBS and self.autopilot.in_control(t):
+            return Event.AIRBORNE
+        if not self.autopilot.in_control(t) and t.mode_is_sure and not self.autopilot.lost_our_stream(t):
+            return Event.MODE_LOST
+        if not t.armed and (t.heartbeat_us or 0) - self._entered_us >= DISARMED_SURE_US:
+            return Event.DISARMED
+        if since_us > GIVE_UP_US:
+            self.failure += "; it did not say that it is disarmed"
+            return Event.GIVEN_UP
+        question = self._asking.question
+        spent = question is not None and question.outcome is not Outcome.PENDING
+        if question is None or (spent and now_us - self._disarm_asked_us >= DISARM_AGAIN_US):
+            self._asking.question, self._disarm_asked_us = self.autopilot.disarm(), now_us
+        return None
+
     def _taking_off(self, now_us: int, out: list[Output]) -> Event | None:
-        climbing = self.telemetry.landed_state in (
-            mavlink.MAV_LANDED_STATE_TAKEOFF,
-            mavlink.MAV_LANDED_STATE_IN_AIR,
-        )
+        climbing = self.telemetry.landed_state in CLIMBS
         if self.autopilot.takes_off_itself:
             if self.autopilot.airborne(self.telemetry):
                 return Event.AIRBORNE
@@ -647,9 +670,6 @@ class Companion:
                 self._asking.forget()
                 self._asking.question = self._way_down()
             return
-        may_arm = before is Phase.ARMING and event in (Event.LAND_ASKED, Event.REFUSED)
-        if self.phase is Phase.FAILED and (may_arm or (before is Phase.TAKING_OFF and event is Event.REFUSED)):
-            out.append(self.link.pack(self.autopilot.disarm().message(self.link.target)))  # it may arm after all
         self._entered_us = now_us
         self._asking.forget()
         self._mode_before = self.telemetry.custom_mode
@@ -758,7 +778,7 @@ class Companion:
         """Whether a setpoint is wanted in this phase by this autopilot."""
         autopilot = self.autopilot
         match self.phase:
-            case Phase.PLANNING | Phase.ENGAGING | Phase.ARMING:
+            case Phase.PLANNING | Phase.ENGAGING | Phase.ARMING | Phase.DISARMING:
                 return autopilot.streams_on_ground
             case Phase.TAKING_OFF:
                 return not autopilot.takes_off_itself
@@ -789,6 +809,7 @@ WATCH: dict[Phase, Callable[[Companion, int, list[Output]], Event | None]] = {
     Phase.PLANNING: Companion._planning,
     Phase.ENGAGING: Companion._engaging,
     Phase.ARMING: Companion._arming,
+    Phase.DISARMING: Companion._disarming,
     Phase.TAKING_OFF: Companion._taking_off,
     Phase.FLYING: Companion._flying,
     Phase.LINK_LOST: Companion._link_lost,

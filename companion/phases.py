@@ -10,13 +10,14 @@ counts as trouble in `safety.py`; this file does not know.
     CONNECTING --vehicle heard--> PREPARING --ready--> PLANNING --plans ready--> ENGAGING --mode confirmed--> ARMING
     ARMING --armed--> TAKING_OFF --airborne--> FLYING --steps done--> LANDING --disarmed--> DONE
 
-Before the takeoff nothing has left the ground: a refusal ends in FAILED, and a vehicle that falls silent or boots again
-is waited for in CONNECTING. In the air the only way out is down: an operator who asks to land gets a landing, and so
-does a vehicle that the safety table no longer trusts. A vehicle that falls silent in the air is LINK_LOST: we go on
-speaking to it. Whoever must fly on from where the vehicle happens to be (after a silence, a lost setpoint stream, a
-stalled companion, a pilot who gives it back) is REJOINING: it holds there until there is a proved way back to the
-mission. A pilot or a failsafe who takes the mode is never fought (HANDED_OVER: we look on, forward and record until the
-vehicle disarms). A vehicle that boots again in the air is FAILED: nothing is sent to it any more.
+Before the takeoff nothing has left the ground: a refusal ends in FAILED (by DISARMING, if it may have armed), and a
+vehicle that falls silent or boots again is waited for in CONNECTING. In the air the only way out is down: an operator
+who asks to land gets a landing, and so does a vehicle that the safety table no longer trusts. A vehicle that falls
+silent in the air is LINK_LOST: we go on speaking to it. Whoever must fly on from where the vehicle happens to be (after
+a silence, a lost setpoint stream, a stalled companion, a pilot who gives it back) is REJOINING: it holds there until
+there is a proved way back to the mission. A pilot or a failsafe who takes the mode is never fought (HANDED_OVER: we
+look on, forward and record until the vehicle disarms). A vehicle that boots again in the air is FAILED: nothing is sent
+to it any more.
 """
 
 from enum import Enum
@@ -28,6 +29,7 @@ class Phase(Enum):
     PLANNING = "planning"  # every leg is planned before anything moves
     ENGAGING = "engaging"  # asking for the mode that obeys our setpoints
     ARMING = "arming"
+    DISARMING = "disarming"  # called off while it may have armed: told so until it says that it is disarmed
     TAKING_OFF = "taking off"  # by setpoints or by the vehicle itself
     FLYING = "flying"  # the mission's steps after the takeoff
     LINK_LOST = "link lost"  # nothing is heard in the air
@@ -73,11 +75,18 @@ TRANSITIONS: dict[tuple[Phase, Event], Phase] = {
     (Phase.ARMING, Event.MODE_LOST): Phase.FAILED,
     **{(phase, Event.REFUSED): Phase.FAILED for phase in _ON_THE_GROUND},
     **{(phase, Event.LAND_ASKED): Phase.FAILED for phase in _ON_THE_GROUND},
+    (Phase.ARMING, Event.REFUSED): Phase.DISARMING,  # its word may come late, or not reach us
+    (Phase.ARMING, Event.LAND_ASKED): Phase.DISARMING,
     **{(phase, Event.VEHICLE_SILENT): Phase.CONNECTING for phase in _ON_THE_GROUND},
     **{(phase, Event.REBOOTED): Phase.CONNECTING for phase in _ON_THE_GROUND},
-    (Phase.ARMING, Event.VEHICLE_SILENT): Phase.FAILED,  # it may have armed: not to be begun anew
+    (Phase.ARMING, Event.VEHICLE_SILENT): Phase.DISARMING,  # it may have armed: not to be begun anew
+    (Phase.DISARMING, Event.DISARMED): Phase.FAILED,
+    (Phase.DISARMING, Event.MODE_LOST): Phase.FAILED,  # whoever took it has it
+    (Phase.DISARMING, Event.REBOOTED): Phase.FAILED,
+    (Phase.DISARMING, Event.GIVEN_UP): Phase.FAILED,
+    (Phase.DISARMING, Event.AIRBORNE): Phase.LANDING,  # it flies after all
     (Phase.TAKING_OFF, Event.AIRBORNE): Phase.FLYING,
-    (Phase.TAKING_OFF, Event.REFUSED): Phase.FAILED,
+    (Phase.TAKING_OFF, Event.REFUSED): Phase.DISARMING,
     (Phase.FLYING, Event.STEPS_DONE): Phase.LANDING,
     (Phase.FLYING, Event.HOME_ASKED): Phase.FLYING,  # the itinerary knows the way
     (Phase.LANDING, Event.LAND_ASKED): Phase.LANDING,  # here, instead of where it was about to
@@ -107,6 +116,7 @@ STREAMING = frozenset(
         Phase.PLANNING,
         Phase.ENGAGING,
         Phase.ARMING,
+        Phase.DISARMING,
         Phase.TAKING_OFF,
         Phase.FLYING,
         Phase.LINK_LOST,

@@ -20,7 +20,7 @@ from wire.udp import UdpLink
 
 Told = Callable[[str, str], None]
 """Takes a fault of ours in one line, and its traceback."""
-OURS = AIRBORNE | {Phase.ARMING}
+OURS = AIRBORNE | {Phase.ARMING, Phase.DISARMING}
 """Phases in which the vehicle is in the air by our doing, or may be armed by it."""
 
 

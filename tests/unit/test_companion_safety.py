@@ -608,3 +608,67 @@ def test_a_landing_is_not_asked_for_again_while_no_heartbeat_tells_whose_vehicle
     asked = len(puppet.modes_asked())
     puppet.run(20.0)
     assert len(puppet.modes_asked()) == asked <= 2
+
+
+def arming(flavour):
+    puppet = Puppet(flavour, FLYING)
+    puppet.companion.phase, puppet.companion._boots = Phase.ARMING, puppet.companion.telemetry.boots
+    puppet.companion._asking.question = puppet.companion.autopilot.arm()
+    puppet.armed, puppet.landed, puppet.mode = False, GROUND, OURS[flavour]
+    return puppet
+
+
+def disarms(puppet, since_us=0):
+    return [at for at, command, p1, *_ in puppet.sent if (command, p1) == (400, 0.0) and at >= since_us]
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_that_arms_after_the_flight_was_called_off_is_told_to_disarm_until_it_is(flavour):
+    puppet = arming(flavour)
+    puppet.run(0.1)
+    assert puppet.companion.obey(puppet.now_us, Order("land")) == ""
+    puppet.run(0.2)
+    puppet.armed = True  # our word to arm arrived late
+    assert puppet.run(5.0).phase is Phase.DISARMING
+    assert len(disarms(puppet)) >= 8  # the answers are lost
+    puppet.answers[400] = 0
+    puppet.run(5.0)
+    assert puppet.companion.phase is Phase.DISARMING  # accepted, and not done
+    assert disarms(puppet, puppet.now_us - 3_000_000)
+    puppet.armed = False
+    assert puppet.run(0.1).phase is Phase.FAILED
+    assert puppet.companion.failure == "cancelled by the operator"
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_that_refuses_to_arm_is_disarmed_for_as_long_as_its_word_can_be_late(flavour):
+    puppet = arming(flavour)
+    puppet.answers[400] = mavlink.MAV_RESULT_DENIED
+    assert puppet.run(1.0).phase is Phase.DISARMING
+    assert disarms(puppet)
+    assert puppet.run(0.5).phase is Phase.FAILED
+    assert "the vehicle refused to arm" in puppet.companion.failure
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_vehicle_that_falls_silent_while_it_is_armed_is_disarmed_when_it_is_heard_again(flavour):
+    puppet = arming(flavour)
+    puppet.run(0.1)
+    puppet.says_anything = False
+    assert puppet.run(10.0).phase is Phase.DISARMING
+    puppet.armed = puppet.says_anything = True
+    since_us = puppet.now_us
+    puppet.run(2.0)
+    assert disarms(puppet, since_us)
+    puppet.armed = False
+    assert puppet.run(0.5).phase is Phase.FAILED
+    assert puppet.companion.failure.startswith("nothing heard from the vehicle")
+
+
+def test_a_vehicle_that_flies_though_its_takeoff_was_called_off_is_landed_and_one_that_a_pilot_has_is_left():
+    for change, phase in ((says(armed=True, landed=AIR), Phase.LANDING), (says(armed=True, mode=PILOTS), Phase.FAILED)):
+        puppet = arming("ardupilot")
+        puppet.companion.obey(puppet.now_us, Order("land"))
+        puppet.run(0.5)
+        change(puppet)
+        assert puppet.run(0.5).phase is phase
