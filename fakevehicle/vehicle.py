@@ -242,6 +242,12 @@ class Vehicle:
         """Mode, arming and landed state, to be looked at only."""
         return self._supervisor
 
+    @property
+    def position_due_us(self) -> int | None:
+        """When it tells its position next, on the clock of `step` [us]: whoever flies by it wants it at once."""
+        due_us = self._streams.due_us(mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED)
+        return None if due_us is None else due_us + self._boot_us
+
     def take_texts(self) -> list[str]:
         """What it told people since the last call (the STATUSTEXTs), for a log."""
         return self._outbox.take_said()

@@ -1,17 +1,13 @@
 """Plans and replans: made in line for lockstep, in worker processes beside the flight loop over UDP."""
 
-import os
-import signal
-import time
 from dataclasses import replace
-from multiprocessing import get_context
-from multiprocessing.pool import AsyncResult
 from typing import Protocol
 
-from companion.drivers.replanning import ReplanDesk
+from companion.drivers.desk import ReplanDesk
+from companion.drivers.worker import Worker
 from companion.seam import PlanReady, PlanWanted, ReplanReady, ReplanWanted
 from companion.wording import in_mission_words
-from planner import Plan, PlannerError, World, plan, replan, warm_up
+from planner import Plan, PlannerError, World, plan
 
 
 class Planning(Protocol):
@@ -82,42 +78,6 @@ class InlinePlanning:
         """Nothing to give back."""
 
 
-_world: World | None = None  # the worker process's own copy
-_desk: ReplanDesk | None = None
-
-
-def _enter_worker(world: World) -> None:
-    global _world, _desk
-    _world, _desk = world, ReplanDesk(world)
-    os.nice(5)  # the flight loop comes first where cores are few
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the flight loop, which ends this process itself
-
-
-def _warm_worker(replans: bool) -> None:
-    warm_up()
-    if replans:
-        replan.warm_up()
-
-
-def _answer_in_worker(wanted: PlanWanted) -> PlanReady:
-    assert _world is not None
-    try:
-        return answer(_world, wanted)
-    except Exception as error:  # a fault of ours must end in a refusal on the ground, not in the flight loop
-        return PlanReady(wanted.request_id, None, error=type(error).__name__, text=str(error), method=wanted.method)
-
-
-def _replan_in_worker(wanted: ReplanWanted) -> ReplanReady:
-    assert _desk is not None
-    started = time.thread_time()
-    try:
-        ready = _desk.answer(wanted)
-    except Exception as error:  # a fault of ours must end in a stop, not in the flight loop
-        reason = f"{type(error).__name__}: {error}"
-        ready = ReplanReady(wanted.request_id, "failed", None, False, float("nan"), None, reason)
-    return replace(ready, cpu_ms=1e3 * (time.thread_time() - started))
-
-
 class WorkerPlanning:
     """Plans in worker processes, so that setpoints never wait for a plan.
 
@@ -126,43 +86,33 @@ class WorkerPlanning:
     world : handed to each worker once. Workers compile their kernels first (`warmed`).
     replans : what is flown will be planned again and again: that has a worker of its own, and does not wait for plans
         from scratch, which the other makes.
+    hung_s : how long an answer may take before its worker is started again [s]; None: as `worker` has it.
     """
 
-    def __init__(self, world: World, replans: bool = False) -> None:
-        spawn = get_context("spawn")
-        self._pool = spawn.Pool(1, initializer=_enter_worker, initargs=(world,))
-        self._again = spawn.Pool(1, initializer=_enter_worker, initargs=(world,)) if replans else self._pool
-        self._pools = [self._pool, self._again] if replans else [self._pool]
-        self._warming = [pool.apply_async(_warm_worker, (replans,)) for pool in self._pools]
-        self._pending: list[AsyncResult[PlanReady] | AsyncResult[ReplanReady]] = []
+    def __init__(self, world: World, replans: bool = False, hung_s: float | None = None) -> None:
+        self._plans = Worker(world, answer, replans, hung_s)
+        self._again = Worker(world, answer, replans, hung_s) if replans else self._plans
+        self.workers = [self._plans, self._again] if replans else [self._plans]
 
     def warmed(self) -> bool:
         """Whether the workers' kernels are compiled.
 
         Raises
         ------
-        Exception : whatever kept them from it.
+        RuntimeError : whatever kept them from it.
         """
-        if not all(warming.ready() for warming in self._warming):
-            return False
-        for warming in self._warming:
-            warming.get()
-        return True
+        for worker in self.workers:
+            if worker.fault and not worker.warm:
+                raise RuntimeError(worker.fault)
+        return all(worker.warm for worker in self.workers)
 
     def submit(self, wanted: PlanWanted | ReplanWanted) -> None:
-        if isinstance(wanted, ReplanWanted):
-            pool = self._pool if wanted.cold else self._again
-            self._pending.append(pool.apply_async(_replan_in_worker, (wanted,)))
-        else:
-            self._pending.append(self._pool.apply_async(_answer_in_worker, (wanted,)))
+        (self._again if isinstance(wanted, ReplanWanted) and not wanted.cold else self._plans).submit(wanted)
 
     def ready(self) -> list[PlanReady | ReplanReady]:
-        done = [result for result in self._pending if result.ready()]
-        self._pending = [result for result in self._pending if result not in done]
-        return [result.get() for result in done]
+        return [ready for worker in self.workers for ready in worker.ready()]
 
     def close(self) -> None:
         """End the workers at once; whatever they still plan is dropped."""
-        for pool in self._pools:
-            pool.terminate()
-            pool.join()
+        for worker in self.workers:
+            worker.close()

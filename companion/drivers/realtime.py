@@ -1,18 +1,23 @@
 """Real time: the same core over UDP sockets and the monotonic clock, in one thread.
 
-Absolute deadlines: the driver receives until the next one, steps, sends, and hands the tick to the taps. A late tick
-is counted and never made up by a burst. `now_us` is microseconds since the epoch as of the start, advanced by the
-monotonic clock, so that a step of the wall clock cannot bend a flight.
+Absolute deadlines, soon after the vehicle's positions come (`beat`): the driver receives until the next one, steps,
+sends, and hands the tick to the taps. A late tick is counted and never made up by a burst. `now_us` is microseconds
+since the epoch as of the start, advanced by the monotonic clock, so that a step of the wall clock cannot bend a flight.
+
+Another thread of this process, a recorder's say, gives the interpreter back within `SWITCH_S`, not Python's 5 ms.
 """
 
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from companion.drivers.beat import Beat, tells_position
 from companion.drivers.planning import Planning
 from companion.drivers.tick import Tap, Tick
 from companion.seam import Input, Order, Output, PlanWanted, ReplanWanted
+from companion.vehiclelink import VEHICLE_LINK
 from wire.datagram import Datagram
 from wire.udp import UdpLink, wait
 
@@ -38,6 +43,7 @@ class Core(Protocol):
 
 
 SHORTEST_TICK_NS = 2_000_000
+SWITCH_S = 0.0005
 
 
 def tick_ns(tick_us: int, rate: float) -> int:
@@ -56,21 +62,41 @@ def fly_realtime(
     rate: Callable[[], float] = lambda: 1.0,
 ) -> Pace:
     """Fly until the companion is done or `stop` says so (asked once a tick); `rate`: the vehicle's pace."""
-    period_ns = tick_ns(companion.TICK_US, rate())
+    before_s = sys.getswitchinterval()
+    sys.setswitchinterval(SWITCH_S)
+    try:
+        return _fly(companion, links, planning, taps, operator, stop, rate)
+    finally:
+        sys.setswitchinterval(before_s)
+
+
+def _fly(
+    companion: Core,
+    links: Mapping[str, UdpLink],
+    planning: Planning,
+    taps: Sequence[Tap],
+    operator: Callable[[int], Order | None],
+    stop: Callable[[], bool],
+    rate: Callable[[], float],
+) -> Pace:
     epoch_ns = time.time_ns() - time.monotonic_ns()
     names = {id(link): name for name, link in links.items()}
     sockets = list(links.values())
-    index, late, missed = 0, 0, 0
-    deadline_ns = time.monotonic_ns() + period_ns
+    period_ns, index, late = tick_ns(companion.TICK_US, rate()), 0, 0
+    beat = Beat(time.monotonic_ns(), period_ns)
     while not companion.over and not stop():
         inputs: list[tuple[int, Input]] = []
-        while (left_ns := deadline_ns - time.monotonic_ns()) > 0:
+        left_ns = 1
+        while left_ns > 0:  # once more when it is due: what came while this process waited for its turn
+            left_ns = beat.deadline_ns - time.monotonic_ns()
             for link in wait(sockets, left_ns / 1e9):
                 name = names[id(link)]
                 for got in link.receive():
+                    if name == VEHICLE_LINK and tells_position(got.data):
+                        beat.heard(got.received_ns)
                     inputs.append(((got.received_ns + epoch_ns) // 1000, Datagram(name, got.data, got.peer)))
         started_ns = time.monotonic_ns()
-        overdue_ns = started_ns - deadline_ns
+        overdue_ns = started_ns - beat.deadline_ns
         late += overdue_ns > period_ns // 2
         now_us = (started_ns + epoch_ns) // 1000
         inputs.extend((now_us, ready) for ready in planning.ready())
@@ -88,9 +114,5 @@ def fly_realtime(
             tap(tick)
         index += 1
         period_ns = tick_ns(companion.TICK_US, rate())
-        deadline_ns += period_ns
-        behind = (time.monotonic_ns() - deadline_ns) // period_ns
-        if behind > 0:  # whole periods were missed: they stay missed
-            missed += behind
-            deadline_ns += behind * period_ns
-    return Pace(index, late, missed)
+        beat.next(time.monotonic_ns(), period_ns)
+    return Pace(index, late, beat.missed)

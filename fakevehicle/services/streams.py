@@ -82,6 +82,12 @@ class Streams(Service):
         heapify(queue)
         return True
 
+    def due_us(self, message_id: int) -> int | None:
+        """When a message goes out next on any link [us]; None where no link has it."""
+        return min(
+            (due for queue in self._queues.values() for due, number in queue if number == message_id), default=None
+        )
+
     def step(self, now_us: int) -> None:
         """Send what is due."""
         if now_us < self._next_us:
