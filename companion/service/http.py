@@ -1,4 +1,4 @@
-"""The service's page on this machine: `/` to read, `/state.json` for programs, `/health` for watchdogs.
+"""The service's page on this machine: `/` to read, `/state.json` for programs, `/health` and `/ready` for watchdogs.
 
 Served from a thread of its own, which only hands out what the flight loop left in a `Board`; there is nothing to send
 here that would change a flight.
@@ -18,7 +18,10 @@ from typing import Any
 from companion.errors import LinkError
 
 STALE_S = 2.0
-"""A loop that has not put up its state for so long hangs."""
+"""What a loop has not put up again for so long is not its state any more."""
+HUNG_S = 15.0
+"""A loop that has put up nothing for so long does not turn any more: whoever looks after the process may restart it.
+Compiling kernels the first time may take seconds."""
 TIMEOUT_S = 5.0
 MOST_THREADS = 16
 HOSTS = ("127.0.0.1", "localhost", "[::1]")
@@ -39,10 +42,14 @@ class Board:
         """What is up now."""
         return self._state
 
-    def ill(self) -> str:
-        """Why the service is not well, or nothing."""
+    def hung(self) -> str:
+        """Why the process is of no use any more, or nothing. A vehicle that is not there is no reason."""
+        return "the loop hangs" if time.monotonic() - self._at_s > HUNG_S else ""
+
+    def not_ready(self) -> str:
+        """Why no vehicle can be flown or watched just now, or nothing."""
         if time.monotonic() - self._at_s > STALE_S:
-            return "the loop hangs"
+            return f"the loop has not shown its state for {STALE_S:g} s"
         return "" if self._state.get("vehicle", {}).get("heard") else "the vehicle is not heard"
 
 
@@ -103,18 +110,22 @@ class _Handler(BaseHTTPRequestHandler):
             return
         match self.path.partition("?")[0]:
             case "/":
-                page = render(self.server.board.state(), self.server.board.ill())
+                page = render(self.server.board.state(), self.server.board.not_ready())
                 self._answer(HTTPStatus.OK, "text/html", page.encode())
             case "/state.json":
                 self._answer(HTTPStatus.OK, "application/json", _json(self.server.board.state()))
             case "/health":
-                ill = self.server.board.ill()
-                status = HTTPStatus.SERVICE_UNAVAILABLE if ill else HTTPStatus.OK
-                self._answer(status, "application/json", _json({"ok": not ill, "reason": ill or None}))
+                self._judge(self.server.board.hung())
+            case "/ready":
+                self._judge(self.server.board.not_ready())
             case _:
-                self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there are /, /state.json and /health\n")
+                self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there are /, /state.json, /health and /ready\n")
 
     do_HEAD = do_GET
+
+    def _judge(self, reason: str) -> None:
+        status = HTTPStatus.SERVICE_UNAVAILABLE if reason else HTTPStatus.OK
+        self._answer(status, "application/json", _json({"ok": not reason, "reason": reason or None}))
 
     def _answer(self, status: HTTPStatus, kind: str, body: bytes) -> None:
         self.send_response(status)
@@ -194,7 +205,8 @@ def render(state: Mapping[str, Any], ill: str) -> str:
         f'<p id="gone" class="bad" hidden>The service does not answer any more.</p><div class="cards">{cards}'
         f'<section class="wide"><h2>Notes</h2><ol>{notes}</ol></section></div>'
         f"<footer>version {escape(str(state.get('version', '')))}, up {_duration(state.get('up_s'))} · "
-        '<a href="/state.json">state.json</a> · <a href="/health">health</a></footer></main>'
+        '<a href="/state.json">state.json</a> · <a href="/health">health</a> · <a href="/ready">ready</a>'
+        "</footer></main>"
         f"<script>{SCRIPT}</script></body></html>"
     )
 

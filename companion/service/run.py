@@ -32,6 +32,7 @@ from companion.service.idle import Idle
 from companion.service.jsonlog import Log
 from companion.service.queue import Ready, make_room, recording_file
 from companion.service.snapshot import VERDICT_KEYS
+from companion.service.systemd import Systemd
 from companion.service.telling import Telling
 from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
@@ -60,10 +61,12 @@ class Service:
     config : what it is told.
     signals : who may ask it to end.
     log : where entries go.
+    systemd : told that the loop turns; None: nobody is.
     """
 
-    def __init__(self, config: ServiceConfig, signals: Signals, log: Log) -> None:
+    def __init__(self, config: ServiceConfig, signals: Signals, log: Log, systemd: Systemd | None = None) -> None:
         self._config, self._signals = config, signals
+        self._systemd = Systemd({}) if systemd is None else systemd
         self._endpoints = {VEHICLE_LINK: Endpoint.parse(config.master)} | config.endpoints()
         self._endpoints |= config.sensor_endpoints() | config.fleet_endpoints()
         self._core = CompanionConfig(
@@ -95,6 +98,7 @@ class Service:
             for recovered in recover_unfinished(self._config.record):
                 telling.say(Level.WARNING, str(recovered))
             code = 0
+            self._systemd.ready()
             while not self._signals.asked:
                 ready = self._wait()
                 if ready is None:
@@ -105,6 +109,7 @@ class Service:
                     telling.say(Level.ERROR, f"{ready.mission.name}: not flown: {error}")
                     failed = {"mission": ready.mission.name, "ok": False, "failure": str(error)}
                     telling.last_flight = dict.fromkeys(VERDICT_KEYS) | failed
+            self._systemd.stopping()
             telling.say(Level.INFO, "stopped" if not code else "stopped in flight without landing")
         return code
 
@@ -123,7 +128,12 @@ class Service:
         """Look on until a flight shall begin, or it is `enough`."""
         idle, telling = self._idle, self._telling
         telling.phase = lambda: telling.state
-        taps: list[Tap] = [telling.hear, lambda tick: telling.show_idle(tick, idle, self._choice.missions)]
+        self._systemd.status(f"{telling.state}: {idle.mission or 'no mission'}")
+        taps: list[Tap] = [
+            self._systemd,
+            telling.hear,
+            lambda tick: telling.show_idle(tick, idle, self._choice.missions),
+        ]
         stop = lambda: bool(self._signals.asked) or enough()  # noqa: E731  two conditions, once
         fly_realtime(idle, telling.links, NothingPlanned(), taps, operator=lambda now_us: None, stop=stop)
 
@@ -160,12 +170,13 @@ class Service:
             recorder = stack.enter_context(Recorder(file, threaded=True, **start))
             telling.state = "flying"
             telling.phase = lambda: companion.phase.value
+            self._systemd.status(f"flying {mission.name}")
             show = lambda tick: telling.show_flight(tick, companion, meter, self._choice.missions)  # noqa: E731  a tap
             pace = fly_guarded(
                 companion,
                 telling.links,
                 planning,
-                [meter, RecordingTap(companion, recorder), telling.hear, show],
+                [self._systemd, meter, RecordingTap(companion, recorder), telling.hear, show],
                 operator=signals,
                 stop=signals.stop,
                 told=lambda text, trace: telling.say(Level.ERROR, text, traceback=trace),

@@ -77,13 +77,14 @@ def test_two_services_wait_for_their_vehicles_fly_tell_each_other_and_land_on_si
         services.append(Running(folder, f"{text}fleet: {{number: {k + 1}, {others}}}"))
     first, second = services
     try:
-        first.wait(lambda: first.get("/health") == (503, {"ok": False, "reason": "the vehicle is not heard"}))
+        first.wait(lambda: first.get("/ready") == (503, {"ok": False, "reason": "the vehicle is not heard"}))
+        assert first.get("/health") == (200, {"ok": True, "reason": None})  # nobody restarts it for that
         assert first.get("/state.json")[1]["state"] == "idle"
         with (
             VehicleProcess("--connect", f"udpout:127.0.0.1:{masters[0]}"),
             VehicleProcess("--connect", f"udpout:127.0.0.1:{masters[1]}"),
         ):
-            first.wait(lambda: first.get("/health")[0] == 200)
+            first.wait(lambda: first.get("/ready")[0] == 200)
             first.wait(lambda: (first.get("/state.json")[1].get("flight") or {}).get("phase") == "flying")
             first.wait(lambda: "vehicle 2 is heard" in first.said)
             second.wait(lambda: "vehicle 1" in (second.get("/state.json")[1].get("fleet") or {}))

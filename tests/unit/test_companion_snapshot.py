@@ -177,10 +177,12 @@ def test_the_page_the_state_and_the_health_are_served_to_this_machine_only() -> 
     board = Board()
     with served(("127.0.0.1", 0), board) as place:
         assert ask(place, "/health") == (503, '{\n  "ok": false,\n  "reason": "the loop hangs"\n}\n')
+        assert ask(place, "/ready")[0] == 503
         board.put({"state": "idle", "vehicle": {"heard": False}})
-        assert json.loads(ask(place, "/health")[1])["reason"] == "the vehicle is not heard"
+        assert ask(place, "/health")[0] == 200  # a vehicle that is off is no reason to restart the companion
+        assert ask(place, "/ready") == (503, '{\n  "ok": false,\n  "reason": "the vehicle is not heard"\n}\n')
         board.put({"state": "idle", "vehicle": {"heard": True}, "mission": "<b>hop</b>"})
-        assert ask(place, "/health")[0] == 200
+        assert ask(place, "/health")[0] == ask(place, "/ready")[0] == 200
         assert json.loads(ask(place, "/state.json")[1])["mission"] == "<b>hop</b>"
         status, page = ask(place, "/")
         assert status == 200
