@@ -55,7 +55,7 @@ def parse_mission(data: bytes, file: str) -> Mission:
     """
     if len(data) > MAX_FILE_BYTES:
         raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
-    if is_plan_file(data):
+    if is_plan_file(data, file):
         return _of_plan(data, file)
     document, node = read_yaml(data, file, MissionError, most_bytes=MAX_FILE_BYTES, expected=EXPECTED)
     if "vehicles" in document:

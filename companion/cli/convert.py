@@ -14,8 +14,8 @@ from companion.missionfile import parse_mission, read_mission_file
 from companion.planfiles import Plan, is_plan_file, read
 from companion.planfiles.document import mission_document
 from companion.planfiles.items import ItemFlaw
-from companion.planfiles.qgc import write_plan
-from companion.planfiles.wpl import write_wpl
+from companion.planfiles.qgc import read_plan, write_plan
+from companion.planfiles.wpl import read_wpl, write_wpl
 from companion.planfiles.writing import from_steps
 
 PLAN, WPL, YAML = (".plan",), (".waypoints", ".txt", ".mission"), (".yaml", ".yml")
@@ -49,7 +49,7 @@ def converted(data: bytes, file: str, ending: str) -> tuple[str, list[str]]:
     ------
     MissionError : it cannot be read, or a step or an item has no counterpart.
     """
-    if not is_plan_file(data):
+    if not is_plan_file(data, file):
         mission = parse_mission(data, file)
         if ending in YAML:
             return data.decode(), []
@@ -59,7 +59,10 @@ def converted(data: bytes, file: str, ending: str) -> tuple[str, list[str]]:
         document = mission_document(plan, Path(file).stem[:100] or "plan", file)
         parse_mission(data, file)  # whatever it could not fly is told now
         return yaml.safe_dump(document, sort_keys=False, default_flow_style=None, width=120), []
-    return _from_plan(plan, file, ending)
+    text, unsaid = _from_plan(plan, file, ending)
+    if plan == (read_plan(text, file) if ending in PLAN else read_wpl(text, file)):
+        return data.decode("utf-8-sig"), unsaid  # nothing has changed: byte for byte
+    return text, unsaid
 
 
 def _from_plan(plan: Plan, file: str, ending: str) -> tuple[str, list[str]]:

@@ -10,13 +10,17 @@ from companion.planfiles.document import Plan
 from companion.planfiles.qgc import read_plan
 from companion.planfiles.wpl import MAGIC, read_wpl
 
+NAMES = (".plan", ".waypoints")
+
 __all__ = ["Plan", "is_plan_file", "read"]
 
 
-def is_plan_file(data: bytes) -> bool:
-    """Whether a file's bytes are one of the formats of ground stations, rather than YAML."""
+def is_plan_file(data: bytes, file: str = "") -> bool:
+    """Whether a file's bytes are one of the formats of ground stations, rather than YAML; its name helps in doubt."""
     head = data[:200].removeprefix(b"\xef\xbb\xbf").lstrip()
-    return head.startswith(MAGIC[:7].encode()) or (head.startswith(b"{") and b'"fileType"' in data)
+    if head.startswith(MAGIC[:7].encode()) or (head.startswith(b"{") and b'"fileType"' in data):
+        return True
+    return file.endswith(NAMES)
 
 
 def read(data: bytes, file: str) -> Plan:
@@ -30,4 +34,5 @@ def read(data: bytes, file: str) -> Plan:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise MissionError(file, [f"byte {error.start}: not UTF-8 text"]) from error
-    return read_plan(text, file) if text.lstrip().startswith("{") else read_wpl(text, file)
+    is_wpl = text.lstrip().startswith(MAGIC[:7]) or file.endswith(".waypoints")
+    return read_wpl(text, file) if is_wpl else read_plan(text, file)

@@ -18,6 +18,8 @@ from companion.planfiles.items import MOST_ITEMS, NAN, Item
 
 UPLOADED = "uploaded"
 """Our own key: home and the fence as the items that a ground station uploaded."""
+LARGEST = 3.4e38
+"""Of a number: what MAVLink's 32 bits hold; JSON's have no end."""
 MOST_DEPTH = 64
 """Of nested lists and objects."""
 
@@ -31,8 +33,10 @@ def read_plan(text: str, file: str) -> Plan:
     """
     document = _parsed(text, file)
     mission = document.get("mission")
-    if document.get("fileType") != "Plan" or not isinstance(mission, dict):
-        raise MissionError(file, [f"fileType: found {document.get('fileType')!r}, expected 'Plan' with a mission"])
+    if document.get("fileType") != "Plan":
+        raise MissionError(file, [f"fileType: found {_shown(document.get('fileType'))}, expected 'Plan'"])
+    if not isinstance(mission, dict):
+        raise MissionError(file, [f"mission: found {_shown(mission)}, expected an object"])
     listed = mission.get("items")
     if not isinstance(listed, list) or len(listed) > MOST_ITEMS:
         raise MissionError(file, [f"mission.items: expected a list of at most {MOST_ITEMS}"])
@@ -48,12 +52,14 @@ def read_plan(text: str, file: str) -> Plan:
     if not (isinstance(home, list) and len(home) == 3 and all(map(_is_number, home))):
         problems.append("mission.plannedHomePosition: expected [latitude, longitude, altitude]")
         home = [0.0, 0.0, 0.0]
+    hover: Any = mission.get("hoverSpeed")
+    if not (hover is None or (_is_number(hover) and 0.1 <= hover <= 100.0)):
+        problems.append(f"mission.hoverSpeed: found {_shown(hover)}, expected 0.1 to 100 m/s")
     fence, wrong = _fence(document.get("geoFence"))
     problems += wrong
     if problems:
         raise MissionError(file, problems)
-    hover: Any = mission.get("hoverSpeed")
-    speed = float(hover) if _is_number(hover) and 0.1 <= float(hover) <= 100.0 else None
+    speed = None if hover is None else float(hover)
     came = document.get(UPLOADED)
     ours = {"home": [], "fence": []} if not isinstance(came, dict) else came
     before, corners = _items(ours.get("home")), _items(ours.get("fence"))
@@ -106,7 +112,7 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
     if deepest > MOST_DEPTH:
         raise MissionError(file, [f"found {deepest} levels of nesting, expected at most {MOST_DEPTH}"])
     try:
-        document = json.loads(text)
+        document = json.loads(text, object_pairs_hook=_once)
     except json.JSONDecodeError as error:
         raise MissionError(file, [f"line {error.lineno}: not JSON: {error.msg}"]) from error
     except ValueError as error:
@@ -114,6 +120,16 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise MissionError(file, ["line 1: expected a JSON object with fileType and mission"])
     return document
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object; of two equal keys JSON would silently keep the last."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"{_shown(twice)}: found twice in one object, expected once")
+    return found
 
 
 def _items(listed: Any) -> list[Item]:
@@ -127,13 +143,17 @@ def _item(entry: Any) -> Item | str:
     if not isinstance(entry, dict):
         return "expected an object"
     if entry.get("type") != "SimpleItem":
-        kind = entry.get("complexItemType") or entry.get("type")
-        return f"found {entry.get('type')} {kind!r}, which is not flown: expected SimpleItem"
+        kind = _plain(entry.get("type"))
+        which = f" {_shown(entry['complexItemType'])}" if "complexItemType" in entry else ""
+        return f"found {kind}{which}, which is not flown: expected SimpleItem"
     command, frame, params = entry.get("command"), entry.get("frame"), entry.get("params")
     if type(command) is not int or type(frame) is not int or not 0 <= command <= 65_535 or not 0 <= frame <= 255:
-        return f"found command {command!r} and frame {frame!r}, expected whole numbers"
-    if not (isinstance(params, list) and len(params) == 7 and all(p is None or _is_number(p) for p in params)):
+        return f"found command {_shown(command)} and frame {_shown(frame)}, expected whole numbers"
+    if not isinstance(params, list) or len(params) != 7:
         return "params: expected seven numbers or null"
+    for number, p in enumerate(params, start=1):
+        if not (p is None or _is_number(p)):
+            return f"params: found {_shown(p)} as the {number}., expected seven numbers (3.4e38 at most) or null"
     p1, p2, p3, p4, x, y, z = (NAN if p is None else float(p) for p in params)
     return Item(command, frame, (p1, p2, p3, p4, x, y, z), extra=entry)
 
@@ -214,7 +234,21 @@ def _empty() -> dict[str, Any]:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST
+
+
+def _shown(value: Any) -> str:
+    """What was found, short and on one line."""
+    if isinstance(value, dict | list):
+        return "an object" if isinstance(value, dict) else f"a list of {len(value)}"
+    if isinstance(value, int) and abs(value) > LARGEST:
+        return "a number beyond all bounds"
+    text = repr(value)
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+def _plain(value: Any) -> str:
+    return value[:40] if isinstance(value, str) and value.isprintable() else _shown(value)
 
 
 def _is_pair(value: Any) -> bool:

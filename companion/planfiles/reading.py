@@ -100,21 +100,44 @@ def told(items: Sequence[Item], home_altitude: float) -> Told:
     return Told(steps, tuple(reading.begins), tuple(itertools.accumulate(reading.ends, max)))
 
 
-def _place(reading: _Reading, index: int, item: Item) -> dict[str, float]:
-    """Where an item is."""
+def _place(reading: _Reading, index: int, item: Item, level: bool = True) -> dict[str, float]:
+    """Where an item is; one in a global frame at latitude and longitude 0 is where the one before is (ArduPilot).
+
+    `level`: its altitude counts. 0 is refused: to some autopilots it is the ground, to others the altitude before.
+    """
     *_, x, y, z = item.params
+    if item.frame in GLOBAL and x == y == 0.0:
+        altitude = reading.steps[0]["takeoff"]["altitude"] if reading.steps else 0.0
+        here = (reading.via[-1:] or [reading.here or {"north": 0.0, "east": 0.0, "altitude": altitude}])[0]
+        if z == 0.0 and reading.steps:
+            return dict(here)
+        return {**here, "altitude": _altitude(reading, index, item, level)}
     if not all(map(math.isfinite, (x, y, z))):
         raise ItemFlaw(index, f"{item.name}: found no place, expected latitude, longitude and altitude")
     if item.frame == _m.MAV_FRAME_LOCAL_NED:
-        return {"north": x, "east": y, "altitude": -z}
-    relative = GLOBAL.get(item.frame)
-    if relative is None:
-        entry = _m.enums["MAV_FRAME"].get(item.frame)
-        name = f"{entry.name} ({item.frame})" if entry is not None else str(item.frame)
-        raise ItemFlaw(index, f"{item.name}: found frame {name}, expected one without terrain or body", True)
+        return {"north": x, "east": y, "altitude": _altitude(reading, index, item, level)}
+    if item.frame not in GLOBAL:
+        raise ItemFlaw(index, f"{item.name}: found frame {_frame(item)}, expected one without terrain or body", True)
     if not (abs(x) <= 89.0 and abs(y) <= 180.0):
         raise ItemFlaw(index, f"{item.name}: found latitude {x:g}, longitude {y:g}, expected degrees on the earth")
-    return {"latitude": x, "longitude": y, "altitude": z if relative else z - reading.home_altitude}
+    return {"latitude": x, "longitude": y, "altitude": _altitude(reading, index, item, level)}
+
+
+def _altitude(reading: _Reading, index: int, item: Item, level: bool = True) -> float:
+    """Above home [m]."""
+    z = item.params[6]
+    if item.frame == _m.MAV_FRAME_LOCAL_NED:
+        above = -z
+    else:
+        above = z - reading.home_altitude if GLOBAL.get(item.frame) is False else z
+    if level and above == 0.0:
+        raise ItemFlaw(index, f"{item.name}: found altitude 0 m above home, expected where to fly above it or below")
+    return above
+
+
+def _frame(item: Item) -> str:
+    entry = _m.enums["MAV_FRAME"].get(item.frame)
+    return f"{entry.name} ({item.frame})" if entry is not None else str(item.frame)
 
 
 def _nothing_else(index: int, item: Item, **fields: float) -> None:
@@ -196,8 +219,10 @@ def _land(reading: _Reading, index: int, item: Item) -> None:
     if reading.via:
         reading.goto(reading.via.pop())
     *_, x, y, _ = item.params
+    if item.params[1] == _m.PRECISION_LAND_MODE_REQUIRED:
+        raise ItemFlaw(index, f"{item.name}: found a precision landing, expected none", True)
     if math.isfinite(x) and math.isfinite(y) and (x, y) != (0.0, 0.0) and "return" not in reading.steps[-1]:
-        there = _place(reading, index, replace(item, params=(*item.params[:6], 0.0)))
+        there = _place(reading, index, replace(item, params=(*item.params[:6], 0.0)), level=False)
         there["altitude"] = reading.here.get("altitude", reading.steps[0]["takeoff"]["altitude"])
         if {**there, "altitude": 0.0} != {**reading.here, "altitude": 0.0}:
             reading.goto(there)
@@ -205,11 +230,12 @@ def _land(reading: _Reading, index: int, item: Item) -> None:
 
 
 def _takeoff(reading: _Reading, index: int, item: Item) -> None:
-    z = item.params[6]
     if reading.steps:
         raise ItemFlaw(index, f"{item.name} comes in the air")
-    high = z - reading.home_altitude if GLOBAL.get(item.frame) is False else z
-    high = -high if item.frame == _m.MAV_FRAME_LOCAL_NED else high
+    over_ground = (_m.MAV_FRAME_GLOBAL_TERRAIN_ALT, _m.MAV_FRAME_GLOBAL_TERRAIN_ALT_INT)  # home is on it
+    if item.frame not in (*GLOBAL, *over_ground, _m.MAV_FRAME_LOCAL_NED):
+        raise ItemFlaw(index, f"{item.name}: found frame {_frame(item)}, expected one that says how high", True)
+    high = _altitude(reading, index, item, level=False)
     if not (math.isfinite(high) and high > 0.0):
         raise ItemFlaw(index, f"{item.name}: found altitude {high:g} m above home, expected more than 0")
     reading.climbed(high)

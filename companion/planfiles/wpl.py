@@ -50,9 +50,16 @@ def read_wpl(text: str, file: str) -> Plan:
         raise MissionError(file, ["line 1: found no items, expected home and at least one more"])
     if items[0].command in (mavlink.MAV_CMD_NAV_WAYPOINT, 0):
         home, items = items[0], items[1:]
-        return Plan(items, Geodetic(*home.params[4:]), first=1, home_item=home)
+        if any(home.params[4:6]):
+            return Plan(items, Geodetic(*home.params[4:]), first=1, home_item=home)
+        return Plan(items, _first_place(items), first=1, home_item=home)  # a home that was never set
+    return Plan(items, _first_place(items))
+
+
+def _first_place(items: Sequence[Item]) -> Geodetic | None:
+    """The first place on the earth that is told."""
     place = next((i.params for i in items if i.frame in GLOBAL and any(i.params[4:6])), None)
-    return Plan(items, None if place is None else Geodetic(place[4], place[5]))
+    return None if place is None else Geodetic(place[4], place[5])
 
 
 def write_wpl(items: Sequence[Item], home: Geodetic) -> str:
@@ -83,4 +90,6 @@ def _item(columns: list[str]) -> Item | str:
         return "found a word, expected numbers in columns 5 to 11"
     if min(index, current, frame, command, follows) < 0 or not all(map(math.isfinite, (x, y, z))):
         return "found a negative or infinite number where there can be none"
+    if command > 65_535 or frame > 255:
+        return "found a number too large for a command or a frame, expected at most 65535 and 255"
     return Item(command, frame, (p1, p2, p3, p4, x, y, z), {"autocontinue": follows})

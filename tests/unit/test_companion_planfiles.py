@@ -195,6 +195,13 @@ def test_what_a_format_cannot_say_is_told():
         (simple(115, 90, 30, 0, 1, 0, 0, 0, frame=2), "found relative angle 1"),
         (simple(178, 3, 2, -1, 0, 0, 0, 0, frame=2), "found speed type 3"),
         (simple(16, 0, 0, 0, None, 147.4, 8.5, 10), "latitude 147.4"),
+        (simple(16, 0, 0, 0, None, 47.4, 8.5, 0), "found altitude 0 m above home"),
+        (simple(16, 0, 0, 0, None, 47.4, 8.5, 488, frame=0), "found altitude 0 m above home"),
+        (simple(16, 0, 0, 0, None, 47.4, 8.5, 10, frame=2), "found frame MAV_FRAME_MISSION (2)"),
+        (simple(21, 0, 2, 0, 0, 0, 0, 0), "found a precision landing"),
+        (simple(178, 1, None, -1, 0, 0, 0, 0, frame=2), "found nan m/s"),
+        (simple(19, None, 0, 0, 0, 47.4, None, 9), "found no place"),
+        (simple(93, -1, 13, 30, 0, 0, 0, 0, frame=2), "found a time of day"),
     ],
 )
 def test_an_item_that_is_not_flown_is_refused_by_its_number_and_name(item, words):
@@ -205,10 +212,58 @@ def test_an_item_that_is_not_flown_is_refused_by_its_number_and_name(item, words
     assert "\n" not in str(caught.value)
 
 
-def test_a_survey_is_refused_by_its_name():
-    survey = {"type": "ComplexItem", "complexItemType": "survey", "version": 5}
-    with pytest.raises(MissionError, match=r"mission\.items\.1: found ComplexItem 'survey', which is not flown"):
-        parse_mission(plan(SURVEYED[0], survey).encode(), "x.plan")
+@pytest.mark.parametrize("kind", ["survey", "CorridorScan", "StructureScan", "fwLandingPattern"])
+def test_a_pattern_is_refused_by_its_name(kind):
+    pattern = {"type": "ComplexItem", "complexItemType": kind, "version": 5, "TransectStyleComplexItem": {"Items": []}}
+    with pytest.raises(MissionError, match=rf"mission\.items\.1: found ComplexItem '{kind}', which is not flown"):
+        parse_mission(plan(SURVEYED[0], pattern).encode(), "x.plan")
+
+
+def test_latitude_and_longitude_0_are_where_the_item_before_is_as_ardupilot_has_it():
+    text = """\
+QGC WPL 110
+0\t1\t0\t16\t0\t0\t0\t0\t-35.363262\t149.165237\t584.059998\t1
+1\t0\t3\t22\t0.00\t0.00\t0.00\t0.00\t0.00\t0.00\t20.000000\t1
+2\t0\t3\t18\t1.00\t0.00\t5.00\t0.00\t0.00\t0.00\t0.000000\t1
+3\t0\t3\t16\t0.00\t0.00\t0.00\t0.00\t-35.36249980\t149.16512400\t25.000000\t1
+4\t0\t3\t19\t3.00\t0.00\t5.00\t0.00\t0.00\t0.00\t0.000000\t1
+5\t0\t3\t16\t0.00\t0.00\t0.00\t0.00\t0.00\t0.00\t30.000000\t1
+6\t0\t3\t21\t0.00\t0.00\t0.00\t0.00\t0.00\t0.00\t0.000000\t1
+"""
+    mission = parse_mission(text.encode(), "loiter.txt")
+    assert [s.kind for s in mission.steps] == ["takeoff", "orbit", "goto", "goto", "hold", "goto", "land"]
+    orbit, (first, again, higher) = mission.steps[1].orbit, [s.goto for s in mission.steps if s.goto]
+    assert (orbit.north, orbit.east, orbit.altitude) == (0, 0, 20)
+    assert (again.north, again.east, again.altitude) == (first.north, first.east, first.altitude)
+    assert (higher.north, higher.east, higher.altitude) == (first.north, first.east, 30)
+
+
+def test_a_home_that_was_never_set_is_the_first_place_of_the_file():
+    unset = WPL.replace("47.397742\t8.545594\t488.000000", "0.000000\t0.000000\t0.000000", 1)
+    mission = parse_mission(unset.replace("4\t0\t0\t19", "4\t0\t3\t19").encode(), "w.waypoints")
+    assert mission.origin.latitude == pytest.approx(47.397742)
+    assert mission.ground_plan.first == 1
+
+
+def test_a_takeoff_over_terrain_is_one_over_home_and_one_in_no_frame_that_says_how_high_is_refused():
+    far = simple(16, 0, 0, 0, None, 47.3979, 8.5458, 10)
+    mission = parse_mission(plan(simple(22, 0, 0, 0, None, *HOME[:2], 7, frame=10), far).encode(), "x.plan")
+    assert mission.steps[0].takeoff.altitude == 7
+    with pytest.raises(MissionError, match=r"item 0: MAV_CMD_NAV_TAKEOFF \(22\): found frame MAV_FRAME_MISSION"):
+        parse_mission(plan(simple(22, 0, 0, 0, None, *HOME[:2], 7, frame=2), far).encode(), "x.plan")
+
+
+def test_an_altitude_below_home_is_flown_where_the_ground_falls_away():
+    below = simple(16, 0, 0, 0, None, 47.3979, 8.5458, -12)
+    mission = parse_mission(plan(SURVEYED[0], below).encode(), "x.plan")
+    assert mission.steps[1].goto.altitude == -12
+    assert mission.world.bounds.altitude.low <= -12
+
+
+def test_a_file_is_written_again_byte_for_byte_however_its_numbers_look():
+    odd = plan(*SURVEYED).replace("8.5458", "8.54580000").replace("[]", "[\n            ]")
+    assert converted(odd.encode(), "x.plan", ".plan")[0] == odd
+    assert converted(WPL.encode(), "x.waypoints", ".waypoints")[0] == WPL
 
 
 @pytest.mark.parametrize(
@@ -216,6 +271,10 @@ def test_a_survey_is_refused_by_its_name():
     [
         ('{"fileType": "Plan"', "line 1: not JSON"),
         ('{"fileType": "Other", "mission": {}}', "expected 'Plan'"),
+        ('{"fileType": "Plan", "mission": 3}', "mission: found 3, expected an object"),
+        ('{"fileType": "Plan", "fileType": "Plan", "mission": {}}', "'fileType': found twice in one object"),
+        (plan(*SURVEYED).replace('"hoverSpeed": 4', '"hoverSpeed": -4'), "mission.hoverSpeed: found -4, expected 0.1"),
+        (plan({**SURVEYED[0], "params": [0, 0, 0, 10**400, 1, 2, 3]}), "found a number beyond all bounds as the 4., expected seven"),
         ('{"fileType": "Plan", "mission": {"items": 3}}', "mission.items: expected a list"),
         ('{"fileType": "Plan", "x": ' + "[" * 5000 + "]" * 5000 + "}", "levels of nesting"),
         (plan(*SURVEYED, mission={"items": [], "plannedHomePosition": [1, 2]}), "mission.plannedHomePosition"),
@@ -227,6 +286,7 @@ def test_a_survey_is_refused_by_its_name():
         (WPL.replace("\t12.000000", ""), "line 5: found 11 columns, expected 12"),
         (WPL.replace("3\t0\t3\t16", "3\t0\t3\tx"), "line 5: found a word, expected whole numbers"),
         (WPL.replace("3\t0\t3\t16", "7\t0\t3\t16"), "line 5: found index 7, expected 3"),
+        (WPL.replace("3\t0\t3\t16", "3\t0\t3\t70000"), "line 5: found a number too large for a command"),
         (WPL.replace("47.397900\t8.545800", "nan\t8.545800"), "line 5: found a negative or infinite number"),
     ],
 )
@@ -279,27 +339,60 @@ def test_a_file_is_known_by_its_content_not_by_its_name():
     assert yaml.safe_load(converted(WPL.encode(), "w.waypoints", ".yaml")[0])["name"] == "w"
 
 
-def test_a_plan_with_anything_anywhere_is_read_or_refused_line_by_line_and_nothing_else_happens():
-    dice = random.Random(1)
+ODD = [None, True, -1, math.inf, math.nan, "x", [], {}, [1, 2], 1e30, 0, 2**70, 10**400, {"a": 1}, 178, -0.0, "\x00"]
+
+
+def _broken_values(dice):
     fence = {
         "circles": [{"circle": {"center": HOME[:2], "radius": 200}, "inclusion": True}],
         "polygons": [{"polygon": [[47.39, 8.5], [47.39, 8.51], [47.4, 8.5]], "inclusion": False}],
     }
-    text = plan(*SURVEYED, fence=fence)
-    odd = [None, True, -1, math.inf, math.nan, "x", [], {}, [1, 2], 1e30, 0, 2**70, {"a": 1}, 178]
-    for _ in range(300):
-        document = json.loads(text)
+    document = json.loads(plan(*SURVEYED, fence=fence))
+    for _ in range(dice.choice((1, 1, 2, 4))):
         places = [(o, k) for o in _inside(document) for k in (o if isinstance(o, dict) else range(len(o)))]
         holder, key = dice.choice(places)
-        holder[key] = dice.choice(odd)
-        with suppress(MissionError):
-            parse_mission(json.dumps(document).encode(), "x.plan")
-    for _ in range(300):
-        letters = list(WPL)
-        for _ in range(3):
-            letters[dice.randrange(len(letters))] = dice.choice("0123456789.-\t\neExnaif#")
-        with suppress(MissionError):
-            parse_mission("".join(letters).encode(), "x.waypoints")
+        holder[key] = dice.choice(ODD)
+    return json.dumps(document).encode(), "x.plan"
+
+
+def _broken_bytes(dice, text, name):
+    data = bytearray(text.encode())
+    for _ in range(dice.choice((1, 3, 10))):
+        at, what, some = dice.randrange(len(data)), dice.random(), dice.randrange(1, 40)
+        if what < 0.4:
+            data[at] = dice.choice(b"0123456789.-+eE\t\n NaInf#{}[]\x00\xff")
+        elif what < 0.7:
+            del data[at : at + some]
+        else:
+            data[at:at] = data[dice.randrange(len(data)) :][:some]
+    return bytes(data), name
+
+
+def test_of_2000_damaged_files_each_is_read_or_refused_in_clear_lines_and_nothing_else_happens():
+    dice = random.Random(1)
+    text, refused, lines = plan(*SURVEYED), 0, []
+    for number in range(2000):
+        data, name = (
+            _broken_values(dice),
+            _broken_bytes(dice, text, "x.plan"),
+            _broken_bytes(dice, WPL, "x.waypoints"),
+        )[number % 3]
+        try:
+            parse_mission(data, name)
+        except MissionError as error:
+            refused += 1
+            lines += error.problems
+            continue
+        for ending in (
+            (".plan", ".waypoints", ".yaml") if number % 4 == 0 else ()
+        ):  # what is flown is written, and what is written is flown
+            try:
+                again, _ = converted(data, name, ending)
+            except MissionError as error:
+                raise AssertionError(data) from error
+            parse_mission(again.encode(), f"again{ending}")
+    assert 1000 < refused < 1950
+    assert [line for line in lines if not (0 < len(line) <= 200 and line.isprintable())] == []
 
 
 def _inside(value):
