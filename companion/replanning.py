@@ -10,7 +10,7 @@ So what planning takes is part of the plan: a question is asked a whole period a
 brings the stop for the case that the next one does not come. Boundaries are `period_us` apart; after `LATE` answers in
 a row that came too late the period doubles, up to `LONGEST_US`. A late answer is counted and dropped.
 
-Nothing here plans: `drivers.replanning` does, in line or in a process of its own.
+Nothing here plans: `drivers.desk` does, in line or in a process of its own.
 """
 
 import math

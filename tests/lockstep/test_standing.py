@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from companion.drivers.replanning import ReplanDesk
+from companion.drivers.desk import ReplanDesk
 from companion.missionfile import parse_mission
 from companion.phases import Phase
 from companion.seam import PlanWanted, Reference, ReplanWanted

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from companion.drivers.desk import ReplanDesk, with_cells
 from companion.drivers.recording import to_input, to_record
-from companion.drivers.replanning import ReplanDesk, with_cells
 from companion.hooks import Pose
 from companion.missionfile import parse_mission
 from companion.motion import JOINT, end_us, joint, state_at
