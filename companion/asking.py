@@ -3,11 +3,11 @@
 An accepted command is not a fact yet: what it should bring about shows in telemetry later, or not at all.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from companion.commands import Command, Outcome, ParameterWrite, is_for
-from companion.telemetry import Telemetry
+from companion.telemetry import Ack, Telemetry
 from companion.vehiclelink import COMPONENT_ID
 
 CONFIRM_US = 2_000_000
@@ -38,12 +38,15 @@ class Asking:
         """Whether it may still change what the vehicle does."""
         return self.question is not None and self.question.outcome in (Outcome.PENDING, Outcome.ACCEPTED)
 
-    def take_answers(self, now_us: int, telemetry: Telemetry, target: int) -> None:
-        """Read the acknowledgements and echoes that came since; ours are addressed to system `target`."""
-        for ack in telemetry.acks:
+    def take_acks(self, now_us: int, acks: Iterable[Ack], target: int) -> None:
+        """Read the acknowledgements that came since; ours are addressed to system `target`."""
+        for ack in acks:
             if isinstance(self.question, Command) and is_for(ack, target, COMPONENT_ID):
                 self.question.answered(ack, now_us)
-        telemetry.acks.clear()
+
+    def take_answers(self, now_us: int, telemetry: Telemetry, target: int) -> None:
+        """Read the acknowledgements and echoes that came since."""
+        self.take_acks(now_us, telemetry.acks, target)
         if isinstance(self.question, ParameterWrite):
             self.question.echoed(telemetry.parameters.get(self.question.name, b""))
 

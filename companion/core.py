@@ -25,7 +25,7 @@ import numpy as np
 
 from companion.asking import Asking
 from companion.autopilots import AUTOPILOTS
-from companion.autopilots.base import Autopilot, stream_requests
+from companion.autopilots.base import Autopilot
 from companion.autopilots.px4 import Px4
 from companion.commands import Command, Outcome
 from companion.fleet.member import FLEET_LINK, Member
@@ -45,6 +45,7 @@ from companion.safety import Action, Safety, Watch
 from companion.seam import Input, Level, Note, Order, Output, PlanReady, Reference, ReplanReady
 from companion.seeing.sight import Sight
 from companion.setpoints import SetpointStream
+from companion.streams import Streams
 from companion.telemetry import Telemetry
 from companion.vehicleclock import VehicleClock
 from companion.vehiclelink import VEHICLE_LINK, VehicleLink
@@ -53,6 +54,8 @@ from wire.dialect import mavlink
 from wire.framing import Framer
 
 HEARTBEAT_US = 1_000_000
+HEARS_US = 500_000
+"""A vehicle that streams is not silent for longer."""
 VEHICLE_SILENT_US = 3_000_000
 BEFORE_FLIGHT = (Phase.CONNECTING, Phase.PREPARING, Phase.PLANNING, Phase.ENGAGING, Phase.ARMING)
 """Phases in which giving up costs nothing."""
@@ -62,6 +65,8 @@ ARMED_ELSEWHERE = "somebody else armed the vehicle: it is not taken over"
 INTERRUPTED = (Phase.TAKING_OFF, Phase.REJOINING, Phase.LINK_LOST)
 """Phases after which the mission is flown (again): what is ordered meanwhile is kept."""
 KEPT = ("hold", "goto", "return", "resume")
+PLACED_HZ = {mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0}
+"""Where a mission, or a ground station's order, names places on the earth."""
 CLIMBS = (mavlink.MAV_LANDED_STATE_TAKEOFF, mavlink.MAV_LANDED_STATE_IN_AIR)
 DISARMED_SURE_US = 1_200_000
 """A HEARTBEAT that comes so long after the last word to arm says what became of it."""
@@ -154,6 +159,7 @@ class Companion:
         self._asking = Asking()
         self._mode_before = 0  # when the phase began
         self._held: Reference | None = None  # where a landing begins that comes from no path
+        self._streams = Streams()
         self._preparation: Preparation | None = None  # of the vehicle that was heard last
         self._land_asked = False
         self._given_back = False
@@ -195,6 +201,8 @@ class Companion:
         self._report_texts(now_us, out)
         if self.phase not in OVER:
             self._asking.take_answers(now_us, self.telemetry, self.link.target)
+            self._look_after_streams(now_us, out)
+            self.telemetry.acks.clear()
             event = self._event(now_us, out)
             if event is not None:
                 self._move(now_us, event, out)
@@ -300,6 +308,7 @@ class Companion:
 
     def _hear(self, now_us: int, packet: Any) -> None:
         """One packet of the autopilot's."""
+        self._streams.heard(packet.message_id)
         boots, stamp = self.telemetry.boots, self.telemetry.boot_ms
         self.telemetry.take(now_us, packet, self.link.decoder)
         if self.telemetry.boots != boots:
@@ -358,6 +367,14 @@ class Companion:
             if severity <= mavlink.MAV_SEVERITY_NOTICE:
                 self._warned = (now_us, text)
         self.telemetry.texts.clear()
+
+    def _look_after_streams(self, now_us: int, out: list[Output]) -> None:
+        """In the air, ask again for what does not come; and see whether a vehicle that misses setpoints hears us."""
+        if self.phase in AIRBORNE:
+            hears = now_us - (self.link.heard_us or 0) < HEARS_US
+            probes = self.phase is Phase.REJOINING and self.autopilot.lost_our_stream(self.telemetry)
+            message = self._streams.ask(now_us, self.telemetry.acks, self.link.target, hears, probes)
+            out.extend([] if message is None else [self.link.pack(message)])
 
     # ---- 3. what happened ---------------------------------------------------------------------------------------
 
@@ -435,6 +452,7 @@ class Companion:
             last_text=text,
             stream_lost=autopilot.lost_our_stream(t),
             failsafe=autopilot.failsafe(t),
+            answers_s=0.0 if self._streams.answered_us is None else (now_us - self._streams.answered_us) / 1e6,
             comes_down=comes_down,
             came_down=came_down,
             on_ground=on_ground,
@@ -672,6 +690,7 @@ class Companion:
             return
         self._entered_us = now_us
         self._asking.forget()
+        self._streams.forget()
         self._mode_before = self.telemetry.custom_mode
         from_hold = before is Phase.REJOINING and self.phase is Phase.LANDING
         self._held = self.rejoin.hold(self.itinerary.yaw) if from_hold else None
@@ -688,10 +707,10 @@ class Companion:
                 self.clock.forget()
             case Phase.PREPARING:
                 self._boots = self.telemetry.boots
-                streams = self.autopilot.stream_requests() + stream_requests(self.seeing.streams_hz())
-                if self.mission.origin is not None or self.config.ground_links:
-                    streams += stream_requests({mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 5.0})
-                self._preparation = Preparation(self.autopilot, self.telemetry, now_us, [*streams])
+                placed = self.mission.origin is not None or bool(self.config.ground_links)
+                tables = (self.autopilot.streams_hz(), self.seeing.streams_hz(), PLACED_HZ if placed else {})
+                self._streams = Streams(*tables)
+                self._preparation = Preparation(self.autopilot, self.telemetry, now_us, self._streams)
                 out.extend(self.link.pack(m) for m in self._preparation.reads(now_us, self.link.target))
             case Phase.PLANNING:
                 misplaced = self._fix_frame()

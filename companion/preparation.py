@@ -6,13 +6,12 @@ from typing import Any
 from companion.autopilots.base import Autopilot
 from companion.commands import Command, Outcome, ParameterWrite
 from companion.seam import Level, Note
+from companion.streams import Streams
 from companion.telemetry import Telemetry
 from companion.vehiclelink import AUTOPILOT_COMPONENT
 from wire.dialect import mavlink
 
 PARAMETER_WAIT_US, PARAMETER_REPEAT_US = 2_000_000, 500_000
-STREAMS_AGAIN_US = 5_000_000
-"""Without a position for so long, the vehicle is asked for its streams again."""
 
 
 @dataclass(slots=True)
@@ -27,14 +26,14 @@ class Preparation:
     autopilot: Autopilot
     telemetry: Telemetry
     began_us: int
-    queue: list[Command | ParameterWrite]
+    streams: Streams
+    queue: list[Command | ParameterWrite] = field(init=False)
     reasons: tuple[str, ...] = ("not asked yet",)
     _parameters_due_us: int = 0
-    _streams_due_us: int = field(init=False)
     _judged: bool = False
 
     def __post_init__(self) -> None:
-        self._streams_due_us = self.began_us + STREAMS_AGAIN_US
+        self.queue = [*self.streams.requests()]
         self.telemetry.parameters = {name: b"" for name in self.autopilot.parameters_wanted()}
 
     def next(self) -> Command | ParameterWrite | None:
@@ -43,6 +42,8 @@ class Preparation:
 
     def over(self, command: Command | ParameterWrite) -> Note | None:
         """What to tell of something that was asked and is answered or given up: nothing ends the flight."""
+        if isinstance(command, Command):
+            self.streams.over(command)
         if command.outcome is not Outcome.ACCEPTED:
             spare = isinstance(command, Command) and command.spare
             return Note(Level.INFO if spare else Level.WARNING, command.failure())
@@ -57,10 +58,7 @@ class Preparation:
             for wish in self.autopilot.parameters_to_set(self.telemetry):
                 self.queue.append(ParameterWrite(wish.name, wish.value, wish.kind, wish.shown))
         reasons = (*self.autopilot.not_ready(now_us, self.telemetry), *also)
-        if now_us >= self._streams_due_us and not self.queue:
-            self._streams_due_us = now_us + STREAMS_AGAIN_US
-            if now_us - (self.telemetry.position_us or 0) > STREAMS_AGAIN_US:
-                self.queue.extend(self.autopilot.stream_requests())
+        self.queue.extend(self.streams.missing(now_us, hears=not self.queue))
         if reasons == self.reasons:
             return None
         self.reasons = reasons

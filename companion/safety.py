@@ -21,6 +21,8 @@ HEARD_S = 1.5
 """A vehicle heard within this is there: its HEARTBEAT comes once a second."""
 ADRIFT_M, ASTRAY_M = 1.0, 2.0
 ROUNDING_M = 1e-6
+ANSWERS_S = 3.0
+"""PX4 returns to OFFBOARD within a second of setpoints that come again."""
 STALLED_S = 0.5
 BATTERY_LOW, BATTERY_CRITICAL = 0.15, 0.07
 TROUBLE_S = 30.0
@@ -63,6 +65,7 @@ class Watch:
     last_text: str = ""  # what the vehicle said lately, if it matters
     stream_lost: bool = False  # it left our mode only since it missed our setpoints
     failsafe: str = ""
+    answers_s: float = 0.0  # since the vehicle answered us in this phase
     comes_down: bool = False
     came_down: bool = False  # it did so before
     on_ground: bool = False
@@ -118,6 +121,12 @@ def _taken(w: Watch) -> str:
     if w.in_control or w.stream_lost or w.mode_asked or not w.mode_sure:
         return ""
     return f"{w.failsafe or f'the vehicle is in {w.mode} now'}{w.last_text}; it is not fought for"
+
+
+def _failsafe(w: Watch) -> str:
+    if not w.stream_lost or w.in_control or not w.mode_sure or w.answers_s <= ANSWERS_S:
+        return ""
+    return f"{w.failsafe} though it hears us{w.last_text}; it is not fought for"
 
 
 def _pilot_unknown(w: Watch) -> str:
@@ -238,6 +247,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("landed", Action.FAIL, Event.DISARMED, _LANDING, 0.0, _landed),
     Rule("gone", Action.FAIL, Event.GIVEN_UP, frozenset({Phase.LINK_LOST}) | _LANDING | _HANDED, 0.0, _gone),
     Rule("mode taken", Action.HAND_OVER, Event.MODE_LOST, _FLOWN, 0.0, _taken),
+    Rule("failsafe", Action.HAND_OVER, Event.MODE_LOST, frozenset({Phase.REJOINING}), 0.0, _failsafe),
     Rule("pilot unknown", Action.HAND_OVER, Event.MODE_LOST, _FLOWN, 0.0, _pilot_unknown),
     Rule("landing stopped", Action.HAND_OVER, Event.MODE_LOST, _LANDING, 0.0, _stopped_landing),
     Rule("silent", Action.WAIT, Event.VEHICLE_SILENT, _FLOWN, 0.0, _silent),

@@ -11,7 +11,7 @@ LAND, in which it cannot be armed: GUIDED comes first.
 import math
 import struct
 
-from companion.autopilots.base import ParameterWish, common_reasons, stream_requests
+from companion.autopilots.base import ParameterWish, common_reasons
 from companion.commands import Command
 from companion.telemetry import Telemetry
 from wire.dialect import mavlink
@@ -65,8 +65,8 @@ class ArduPilot:
     streams_on_ground = False
     streams_until_landing = False
 
-    def stream_requests(self) -> list[Command]:
-        return stream_requests(STREAMS_HZ)
+    def streams_hz(self) -> dict[int, float]:
+        return STREAMS_HZ
 
     def parameters_wanted(self) -> list[str]:
         return [TIMEOUT]

@@ -32,8 +32,8 @@ class Autopilot(Protocol):
     streams_until_landing: bool
     """Setpoints go on until it says that it lands; otherwise they end when it is told to land."""
 
-    def stream_requests(self) -> list[Command]:
-        """SET_MESSAGE_INTERVAL for what `Telemetry` reads; asked again after every reboot."""
+    def streams_hz(self) -> dict[int, float]:
+        """What `Telemetry` reads, and how often a second; asked for again after every reboot."""
         ...
 
     def parameters_wanted(self) -> list[str]:

@@ -9,7 +9,7 @@ After landing and disarming it returns to the last intended mode, OFFBOARD, by i
 
 import struct
 
-from companion.autopilots.base import ParameterWish, common_reasons, stream_requests
+from companion.autopilots.base import ParameterWish, common_reasons
 from companion.commands import Command
 from companion.telemetry import Telemetry
 from wire.dialect import mavlink
@@ -58,8 +58,8 @@ class Px4:
     streams_on_ground = True
     streams_until_landing = True
 
-    def stream_requests(self) -> list[Command]:
-        return stream_requests(STREAMS_HZ)
+    def streams_hz(self) -> dict[int, float]:
+        return STREAMS_HZ
 
     def parameters_wanted(self) -> list[str]:
         return [STREAM_LOSS_ACTION]

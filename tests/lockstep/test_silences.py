@@ -165,3 +165,40 @@ def test_a_flight_with_a_blackout_runs_again_from_its_recording_output_for_outpu
     assert again.comparison.first is None
     assert again.comparison.equal == again.comparison.outputs > 1000
     assert again.companion.phase is flight.companion.phase is Phase.DONE
+
+
+class Forgetful:
+    """The first request for each of these messages is answered, and forgotten."""
+
+    def __init__(self, vehicle, forgotten):
+        self.vehicle, self.TICK_US, self.left = vehicle, vehicle.TICK_US, set(forgotten)
+        self.mav, self.decoder = mavlink.MAVLink(None, srcSystem=1, srcComponent=1), mavlink.MAVLink(None)
+
+    def step(self, now_us, inputs):
+        kept, answers = [], []
+        for datagram in inputs:
+            m = self.decoder.decode(bytearray(datagram.data))
+            if m.get_type() == "COMMAND_LONG" and m.command == 511 and int(m.param1) in self.left:
+                self.left.discard(int(m.param1))
+                ack = mavlink.MAVLink_command_ack_message(511, 0, 0, 0, m.get_srcSystem(), m.get_srcComponent())
+                answers.append(Datagram("onboard", bytes(ack.pack(self.mav)), None))
+            else:
+                kept.append(datagram)
+        return self.vehicle.step(now_us, kept) + answers
+
+
+def test_a_stream_that_was_acknowledged_and_does_not_come_is_asked_for_again(fly):
+    flight = fly(autopilot="ardupilot", between=lambda vehicle: Forgetful(vehicle, (245, 193, 30)))
+    assert flight.verdict.ok, flight.verdict.failure
+
+
+@pytest.mark.parametrize("autopilot", FLAVOURS)
+def test_in_the_air_nothing_is_asked_for_that_comes(fly, autopilot):
+    flight = fly(autopilot=autopilot)
+    decoder, asked = mavlink.MAVLink(None), []
+    for tick in flight.ticks:
+        for o in tick.outputs:
+            if isinstance(o, Datagram) and o.data[7:10] == bytes([76, 0, 0]):
+                asked.append((tick.now_us, decoder.decode(bytearray(o.data)).command))
+    armed_us = next(at for at, command in asked if command == 400)
+    assert 511 not in [command for at, command in asked if at > armed_us]

@@ -431,6 +431,7 @@ def test_every_row_is_in_the_page_and_walked_here():
     assert [name for name in rows if name != "rule"] == [rule.name for rule in SAFETY]
     walked = {row[0] for row in ROWS} | {
         "stream lost",
+        "failsafe",
         "pilot unknown",
         "position late",
         "blind",
@@ -672,3 +673,25 @@ def test_a_vehicle_that_flies_though_its_takeoff_was_called_off_is_landed_and_on
         puppet.run(0.5)
         change(puppet)
         assert puppet.run(0.5).phase is phase
+
+
+@pytest.mark.parametrize("phase", [FLYING, Phase.TAKING_OFF])
+def test_a_px4_that_holds_though_it_hears_us_is_its_failsafes_and_never_landed(phase):
+    puppet = Puppet("px4", phase)
+    puppet.answers[None] = 0
+    puppet.mode, puppet.status = HOLD["px4"], 5  # OFFBOARD is still intended: its link to the sticks is gone, say
+    puppet.run(5.0)
+    assert puppet.companion.phase is Phase.HANDED_OVER
+    puppet.run(40.0)
+    assert puppet.modes_asked() == []
+    assert puppet.companion.failure == "PX4's failsafe chose Hold though it hears us; it is not fought for"
+
+
+def test_a_px4_that_holds_and_does_not_hear_us_is_waited_for():
+    puppet = Puppet("px4", FLYING)
+    puppet.mode = HOLD["px4"]
+    assert puppet.run(20.0).phase is Phase.REJOINING
+    puppet.answers[None] = 0
+    assert puppet.run(1.0).phase is Phase.REJOINING
+    puppet.mode = OURS["px4"]  # our setpoints come again, too
+    assert puppet.run(0.5).phase is FLYING
