@@ -113,8 +113,10 @@ class Itinerary:
     def obstruction(self) -> str:
         """Why the climb, an orbit or the landing cannot be flown, or nothing; legs are the planner's to refuse."""
         world, radius, legs = self.mission.planner_world(), self.mission.planner_radius(), self._main.legs
+        fence = self.mission.geofence()
         for what, top in (("the climb", legs[0].end), ("the landing", legs[-1].end)):
-            flaw = column_flaw(world, top, radius)
+            flaw = "" if fence is None else fence.told(top, radius)
+            flaw = flaw or column_flaw(world, top, radius)
             if flaw:
                 return f"{what} at {place(top)} is {flaw}"
         for i, leg in enumerate(legs):
