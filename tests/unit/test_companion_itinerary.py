@@ -92,8 +92,8 @@ def test_a_climb_to_the_ceiling_is_refused_and_a_free_one_is_not():
 
 
 def test_a_vehicle_found_outside_the_fence_is_told_so_rather_than_of_an_obstacle():
-    fenced = MISSION.replace("steps:\n", "fence: {include: [{circle: {north: 6, east: 5, radius: 5.5}}]}\nsteps:\n")
+    fenced = MISSION.replace("steps:\n", "fence: {include: [{circle: {north: 6, east: 5, radius: 5.6}}]}\nsteps:\n")
     steps = itinerary(fenced)
     assert steps.obstruction() == ""
-    steps.stand(np.array([0.5, 5.5, 0.0]))
-    assert steps.obstruction() == "the climb at north 0.5, east 5.5, altitude 2 is 0.02 m outside the fence"
+    steps.stand(np.array([0.0, 5.0, 0.0]))
+    assert steps.obstruction() == "the climb at north 0, east 5, altitude 2 is 0.40 m outside the fence"
