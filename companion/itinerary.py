@@ -200,6 +200,20 @@ class Itinerary:
         if wait is not None and wait.percent is not None and battery is not None:
             self._main.released = self._main.released or 100.0 * battery >= wait.percent
 
+    def next_way(self, seconds: float, every_s: float) -> FloatArray | None:
+        """Where the next step that moves leads (m, 3) in its first seconds; None where that is the landing."""
+        legs = self._main.legs[self.index + 1 :]
+        leg = next((leg for leg in legs if leg.paths or leg.step.land is not None), None)
+        if leg is None or not leg.paths:
+            return None
+        walk = Walk([leg])
+        return np.array([walk.motion(every_s * k).position for k in range(round(seconds / every_s) + 1)])
+
+    def heed_movers(self, clear: bool) -> None:
+        """A step may wait until nothing moves across the way of the next."""
+        if self.step.wait is not None and self.step.wait.for_ == "movers clear":
+            self._main.released = clear
+
     def release(self) -> None:
         """What the step waits for has happened."""
         if self.step.wait is not None:

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from companion.column import landing_crossed_s
+from companion.column import COLUMN_GROWTH, landing_crossed_s
 from companion.guard import first_violation
 from companion.itinerary import Itinerary
 from companion.mission import Mission
@@ -30,6 +30,8 @@ SPARE = 0.1
 PATIENCE_US = 1_000_000
 AROUND_US, AROUND_EVERY_S, AROUND_MOST_S = 5_000_000, 0.1, 120.0
 """What stays on a circle for so long is flown round; how finely, and how far on, it is looked for a place behind it."""
+WAY_S, WAY_EVERY_S = 5.0, 0.1
+"""How much of the next step's way a wait for movers looks at, and how finely [s]."""
 LONGEST_WAIT_US = 60_000_000
 """Above a landing, until nothing is about to cross the column; then it lands all the same."""
 
@@ -63,8 +65,7 @@ class Lookout:
 
     def may_land(self, flight_us: int) -> bool:
         """Whether nothing is about to cross the column under it; after a minute, whatever is."""
-        place = self._itinerary.reference(flight_us).position_m
-        crossed_s = landing_crossed_s(self._mission, self._sight.tracks, flight_us, place)
+        crossed_s = self._descent_crossed_s(flight_us)
         if crossed_s == math.inf:
             return True
         if self._waits_us is None:
@@ -75,6 +76,9 @@ class Lookout:
     def _look(self, flight_us: int) -> None:
         itinerary = self._itinerary
         itinerary.blocked &= self._since_us is not None  # not from the climb
+        wait = itinerary.step.wait
+        if wait is not None and wait.for_ == "movers clear":
+            itinerary.heed_movers(self._next_is_clear(flight_us, wait.radius))
         points = itinerary.ahead(flight_us, AHEAD_S, EVERY_S)
         in_the_way = points is not None and self._touched(flight_us, points)
         step = f"step {itinerary.index}"
@@ -96,6 +100,24 @@ class Lookout:
         elif not in_the_way and self._since_us is not None:
             self._since_us, itinerary.blocked, self.trouble = None, False, ""
             self._tell(Level.INFO, f"{step}: the way is free again")
+
+    def _next_is_clear(self, flight_us: int, radius: float | None) -> bool:
+        """Whether no mover, going on as it says, comes within the radius [m] of the way of the next step."""
+        points = self._itinerary.next_way(WAY_S, WAY_EVERY_S)
+        if points is None:
+            return self._descent_crossed_s(flight_us) == math.inf
+        ahead = WAY_EVERY_S * np.arange(len(points))
+        keep = (self._mission.seen_radius() if radius is None else radius) + COLUMN_GROWTH * ahead
+        for mover in self._sight.tracks.movers():
+            age = flight_us / 1e6 - mover.stamp + ahead
+            apart = points - np.array(mover.centre) - age[:, None] * np.array(mover.velocity)
+            if (np.linalg.norm(apart, axis=1) < keep + mover.radius).any():
+                return False
+        return True
+
+    def _descent_crossed_s(self, flight_us: int) -> float:
+        place = self._itinerary.reference(flight_us).position_m
+        return landing_crossed_s(self._mission, self._sight.tracks, flight_us, place)
 
     def _look_up(self, flight_us: int) -> None:
         """On a climb: stop while that keeps out of the way of what crosses it, and going on does not."""

@@ -223,6 +223,12 @@ class Mission(Model):
             raise ValueError("found vehicle.start.anywhere, expected the key origin with it")
         return self
 
+    @model_validator(mode="after")
+    def _movers_are_seen(self) -> "Mission":
+        if any(s.wait is not None and s.wait.for_ == "movers clear" for s in self.steps) and not self.senses():
+            raise ValueError("found a wait for movers clear, expected the key sensing with it")
+        return self
+
     @property
     def ground_plan(self) -> "GroundPlan | None":
         """The ground station's plan that this mission was read from, if it was."""

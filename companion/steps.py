@@ -56,14 +56,17 @@ Percent = Annotated[float, Field(ge=0, le=100)]
 class Wait(Model):
     """Hold the place until something is so."""
 
-    for_: Literal["order", "battery above"] = Field(alias="for")
+    for_: Literal["order", "battery above", "movers clear"] = Field(alias="for")
     percent: Percent | None = None  # of the battery
+    radius: Size | None = None  # [m] between the vehicle's centre and what moves; None: what plans keep
     at_most: Annotated[float, Field(ge=0, le=86_400)] | None = None  # then the mission goes on [s]; None: for ever
 
     @model_validator(mode="after")
     def _percent_with_battery(self) -> "Wait":
         if (self.percent is None) == (self.for_ == "battery above"):
             raise ValueError("expected percent with battery above, and only there")
+        if self.radius is not None and self.for_ != "movers clear":
+            raise ValueError("expected radius with movers clear only")
         return self
 
 

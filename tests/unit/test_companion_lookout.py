@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from companion.errors import MissionError
 from companion.itinerary import Itinerary
 from companion.lookout import LONGEST_WAIT_US, Lookout
 from companion.missionfile import parse_mission
 from companion.seeing.sight import Sight
+from planner import plan
 
 MISSION = """\
 name: lookout
@@ -81,3 +83,54 @@ def test_one_that_stands_is_sent_out_of_the_way_only_of_what_comes_near():
         if away:
             assert np.allclose(watched.itinerary.aim().goal_m, (10.0, 10.0, -4.0))
             assert not watched.itinerary.finished()
+
+
+WAITS = MISSION.replace(
+    "{takeoff: {altitude: 4}}, land", "{takeoff: {altitude: 4}}, WAIT, {goto: {north: 18, east: 10, altitude: 4}}, land"
+)
+
+
+def waiting(wait):
+    watched = Watched(climbing=False)
+    mission = parse_mission(WAITS.replace("WAIT", f"{{wait: {wait}}}").encode(), "waits.yaml")
+    watched.itinerary = Itinerary(mission, 1)
+    for wanted in watched.itinerary.wanted():
+        made = plan(mission.planner_world(), wanted.start_m, wanted.goal_m, wanted.limits, wanted.radius)
+        watched.itinerary.take(wanted.request_id, made.trajectory)
+    watched.lookout = Lookout(mission, watched.itinerary, watched.sight)
+    watched.itinerary.airborne(0)
+    return watched
+
+
+def test_a_wait_for_movers_ends_as_soon_as_nothing_crosses_the_first_of_the_next_way():
+    watched = waiting("{for: movers clear}")
+    watched.run(0.8, (14.0, 8.0, -4.0), (0.0, 1.0, 0.0))  # across the way, far from the vehicle
+    assert watched.itinerary.step.wait is not None
+    watched.run(0.3, (14.0, 13.0, -4.0), (0.0, 1.0, 0.0))  # it has crossed
+    assert watched.itinerary.step.goto is not None
+
+
+def test_a_wait_for_movers_keeps_the_radius_that_it_says_and_lasts_no_longer_than_at_most():
+    beside = ((14.0, 13.0, -4.0), (0.0, 0.0, 0.0))
+    watched = waiting("{for: movers clear, radius: 3, at_most: 4}")
+    watched.run(3.5, *beside)
+    assert watched.itinerary.step.wait is not None
+    watched.run(1.0, *beside)
+    assert watched.itinerary.step.goto is not None
+    watched = waiting("{for: movers clear, radius: 2}")
+    watched.run(0.3, *beside)
+    assert watched.itinerary.step.goto is not None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("WAIT", "{wait: {for: order, radius: 2}}", "expected radius with movers clear only"),
+        ("sensing: {clearance: 0.3}\n", "", "found a wait for movers clear, expected the key sensing"),
+    ],
+)
+def test_a_wait_for_movers_that_cannot_be_is_refused_in_the_file(old, new, words):
+    text = WAITS.replace(old, new).replace("WAIT", "{wait: {for: movers clear}}")
+    with pytest.raises(MissionError) as caught:
+        parse_mission(text.encode(), "waits.yaml")
+    assert any(words in problem for problem in caught.value.problems)
