@@ -17,6 +17,8 @@ from wire.dialect import mavlink
 SHORTEST_US = 4_000
 """One tick: no stream can be faster."""
 LONGEST_US = 3_600_000_000
+TOGETHER_US = 20_000
+"""A stream asked for at a multiple of this begins with the next one, and so keeps step with the others."""
 
 
 class Streams(Service):
@@ -77,8 +79,10 @@ class Streams(Service):
             self._intervals_us[link].pop(message_id, None)
         else:
             self._intervals_us[link][message_id] = min(max(interval_us, SHORTEST_US), LONGEST_US)
-            queue.append((now_us, message_id))
-            self._next_us = now_us
+            together = self._intervals_us[link][message_id] % TOGETHER_US == 0
+            due_us = -(-now_us // TOGETHER_US) * TOGETHER_US if together else now_us
+            queue.append((due_us, message_id))
+            self._next_us = min(self._next_us, due_us)
         heapify(queue)
         return True
 
