@@ -79,7 +79,8 @@ class Orders:
         reason = order if isinstance(order, str) else obey(order)
         if reason:
             return _m.MAV_RESULT_DENIED, f"{name} refused: {reason}", ()
-        return _m.MAV_RESULT_ACCEPTED, "", ()
+        left = _left_out(command, params)
+        return _m.MAV_RESULT_ACCEPTED, f"{name}: {left}" if left else "", ()
 
     def _set_current(self, sender: Sender, item: int, obey: Obey) -> Answer:
         """The older form of DO_SET_MISSION_CURRENT: it has no acknowledgement but MISSION_CURRENT."""
@@ -112,6 +113,10 @@ class Orders:
                 return Order("resume" if p1 else "hold", source=source)
             case _m.MAV_CMD_DO_PAUSE_CONTINUE:
                 return f"found {p1:g}, expected 0 to pause or 1 to go on"
+            case _m.MAV_CMD_NAV_LOITER_UNLIM if _somewhere(params):
+                return "DO_REPOSITION goes to a place"
+            case _m.MAV_CMD_NAV_LOITER_UNLIM:
+                return Order("hold", source=source)
             case _m.MAV_CMD_NAV_RETURN_TO_LAUNCH:
                 return Order("return", source=source)
             case _m.MAV_CMD_NAV_LAND:
@@ -154,6 +159,24 @@ NOT_OBEYED = {
     _m.MAV_CMD_SET_MESSAGE_INTERVAL: "what it tells has its own rate",
 }
 """Commands that a ground station may well send, and why they are not obeyed."""
+
+
+def _somewhere(params: tuple[float, ...]) -> bool:
+    """Whether a command names a place; 0 and NaN are none."""
+    return any(math.isfinite(p) and p != 0.0 for p in params[4:6])
+
+
+def _left_out(command: int, params: tuple[float, ...]) -> str:
+    """What of a command that is obeyed is not done, for people."""
+    speed, heading = params[0], params[3]
+    match command:
+        case _m.MAV_CMD_NAV_LAND if _somewhere(params):
+            return "it lands where it is"
+        case _m.MAV_CMD_DO_REPOSITION if speed > 0.0:
+            return "at the mission's speed, with the nose as it is"
+        case _m.MAV_CMD_DO_REPOSITION if math.isfinite(heading) and heading != 0.0:
+            return "the nose stays as it is"
+    return ""
 
 
 def _params(message: Any) -> tuple[float, ...]:

@@ -1,8 +1,11 @@
 """How far a flight is in a ground station's plan, as ground stations are told.
 
-MISSION_CURRENT once a second and whenever it changes, MISSION_ITEM_REACHED once for each item, in their order
+In flight MISSION_CURRENT once a second and whenever it changes, MISSION_ITEM_REACHED once for each item, in their order
 (https://mavlink.io/en/services/mission.html#monitoring-mission-progress). An item that is done on the spot, such as a
 change of speed, is reached with the one before it; points that are passed with the place that they lead to.
+
+Ground stations look at the vehicle's system rather than its component: what we tell they may take for the autopilot's
+own mission. So nothing is told of a flight that flies no plan of theirs, and between flights changes only.
 """
 
 from collections.abc import Callable
@@ -55,7 +58,7 @@ class Progress:
         self._course = course if self._plan.items else None
         self._reached, self._skipped = self._plan.first, (0, 0)
         self._told: tuple[int, int, int, int] = (0, NONE, _m.MISSION_STATE_NO_MISSION, 0)
-        self._due_us: int | None = None
+        self._due_us = 0
         self._ends = (self._plan.first, len(self._plan.items) - 1)
 
     def step(self, now_us: int, first: int, count: int) -> list[Any]:
@@ -73,7 +76,7 @@ class Progress:
             course = self._course()
             found += self._done(course)
             now = self._flown(course)
-        if now != self._told or self._due_us is None or now_us >= self._due_us:
+        if now != self._told or (self._course is not None and now_us >= self._due_us):
             self._told, self._due_us = now, now_us + EVERY_US
             found.append(self.message())
         return found
