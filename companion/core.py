@@ -170,6 +170,7 @@ class Companion:
         self._returning_us: int | None = None  # since when, on a planned way
         self._no_way_home = ""
         self._disarm_asked_us = 0
+        self._drifts = 0  # that the setpoints have followed
         self._kept: Order | None = None  # until the mission is flown again
         takeoff = mission.steps[0].takeoff
         self._climb_s = 0.0 if takeoff is None else 2.0 * takeoff.altitude / mission.limits.climb
@@ -467,6 +468,7 @@ class Companion:
             returning=self._returning_us is not None,
             no_way_home=self._no_way_home,
             going_home=self._going_home,
+            jump=self.setpoints.jump,
             no_way=self.replanning.trouble or ("" if self.lookout is None else self.lookout.trouble),
         )
 
@@ -692,7 +694,7 @@ class Companion:
         self._asking.forget()
         self._streams.forget()
         self._mode_before = self.telemetry.custom_mode
-        from_hold = before is Phase.REJOINING and self.phase is Phase.LANDING
+        from_hold = before is Phase.REJOINING and self.phase in (Phase.LANDING, Phase.LINK_LOST)
         self._held = self.rejoin.hold(self.itinerary.yaw) if from_hold else None
         bad = self.phase in (Phase.FAILED, Phase.HANDED_OVER)
         text = f"{before.value} -> {self.phase.value}" + (f": {self.failure}" if bad else f" ({event.value})")
@@ -787,7 +789,9 @@ class Companion:
             return
         time_boot_ms = (now_us - (self._started_us or 0)) // 1000
         wanted, setpoints = self._asked_for(now_us), self.setpoints
-        message, told = setpoints.next(wanted, self.origin_n, time_boot_ms, self.link.target)
+        drifted, self._drifts = self.replanning.drifts != self._drifts, self.replanning.drifts
+        anew = drifted or self.phase is Phase.REJOINING or self.phase in BEFORE_FLIGHT
+        message, told = setpoints.next(wanted, self._flight_us, anew, self.origin_n, time_boot_ms, self.link.target)
         out.extend(told)
         if message is not None and setpoints.reference is not None:
             out.append(setpoints.reference)
@@ -801,6 +805,9 @@ class Companion:
                 return autopilot.streams_on_ground
             case Phase.TAKING_OFF:
                 return not autopilot.takes_off_itself
+            case Phase.LINK_LOST | Phase.REJOINING if autopilot.takes_off_itself:  # one would end its climb
+                climbs = self.telemetry.landed_state == mavlink.MAV_LANDED_STATE_TAKEOFF
+                return not climbs and not (self.phase is Phase.LINK_LOST and self.itinerary.index == 0)
             case Phase.LANDING:
                 return autopilot.streams_until_landing and not self._came_down
             case phase:
@@ -812,7 +819,7 @@ class Companion:
             return self.rejoin.hold(self.itinerary.yaw)
         if self._held is not None:
             return self._held
-        if self.phase in (Phase.FLYING, Phase.LANDING) and self.rejoin.under_way(self._flight_us):
+        if self.phase in (Phase.FLYING, Phase.LINK_LOST, Phase.LANDING) and self.rejoin.under_way(self._flight_us):
             return self.rejoin.reference(self._flight_us, self.itinerary.yaw)
         return self.itinerary.reference(self._flight_us)  # while landing it goes on to the end of its step, as planned
 

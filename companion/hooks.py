@@ -60,6 +60,8 @@ class Replanning(Protocol):
 
     trouble: str
     """Why there is nothing safe to fly but a stop; empty otherwise."""
+    drifts: int
+    """How often it began anew where the vehicle was, which is elsewhere than the last setpoint."""
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         """An answer."""
@@ -117,6 +119,7 @@ class NothingReplanned:
     """What was planned on the ground is flown."""
 
     trouble = ""
+    drifts = 0
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         pass

@@ -78,6 +78,7 @@ class Watch:
     returning: bool = False  # on the mission's own way home, since the battery is low
     no_way_home: str = ""  # why there is no such way
     going_home: bool = False  # it lands by the autopilot's own return
+    jump: str = ""  # why the next setpoint does not follow from the last
     no_way: str = ""  # why there is nothing safe to fly but a stop
     held: str = ""  # why the mission's clock had to stand in the tick before
     fence_m: float | None = None  # from the reference to the fence, less what is kept; negative: too near
@@ -212,6 +213,10 @@ def _adrift(w: Watch) -> str:
     return f"the vehicle is {w.error_m:.1f} m from its reference" if w.error_m > ADRIFT_M and not late else ""
 
 
+def _jumped(w: Watch) -> str:
+    return f"setpoints do not follow each other: {w.jump}" if w.jump else ""
+
+
 def _position_late(w: Watch) -> str:
     return f"no position for {POSITION_HOLD_S:g} s" if w.position_s > POSITION_HOLD_S else ""
 
@@ -265,6 +270,7 @@ SAFETY: tuple[Rule, ...] = (
     Rule("stream lost", Action.REJOIN, Event.INTERRUPTED, _WALKED, 0.0, _stream_lost),
     Rule("stalled", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.0, _stalled),
     Rule("adrift", Action.REJOIN, Event.INTERRUPTED, _MISSION, 0.3, _adrift),
+    Rule("jump", Action.REJOIN, Event.INTERRUPTED, _WALKED, 0.0, _jumped),
     Rule("position late", Action.HOLD, None, _WALKED, 0.0, _position_late),
     Rule("blind", Action.HOLD, None, _MISSION, 0.0, _blind),
     Rule("no heartbeat", Action.HOLD, None, _WALKED, SILENT_S - HEARTBEAT_S, _no_heartbeat),

@@ -274,7 +274,10 @@ def test_a_file_is_written_again_byte_for_byte_however_its_numbers_look():
         ('{"fileType": "Plan", "mission": 3}', "mission: found 3, expected an object"),
         ('{"fileType": "Plan", "fileType": "Plan", "mission": {}}', "'fileType': found twice in one object"),
         (plan(*SURVEYED).replace('"hoverSpeed": 4', '"hoverSpeed": -4'), "mission.hoverSpeed: found -4, expected 0.1"),
-        (plan({**SURVEYED[0], "params": [0, 0, 0, 10**400, 1, 2, 3]}), "found a number beyond all bounds as the 4., expected seven"),
+        (
+            plan({**SURVEYED[0], "params": [0, 0, 0, 10**400, 1, 2, 3]}),
+            "found a number beyond all bounds as the 4., expected seven",
+        ),
         ('{"fileType": "Plan", "mission": {"items": 3}}', "mission.items: expected a list"),
         ('{"fileType": "Plan", "x": ' + "[" * 5000 + "]" * 5000 + "}", "levels of nesting"),
         (plan(*SURVEYED, mission={"items": [], "plannedHomePosition": [1, 2]}), "mission.plannedHomePosition"),

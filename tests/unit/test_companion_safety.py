@@ -165,6 +165,11 @@ def comes_near_the_fence(puppet):
     puppet.companion.setpoints.fence = Geofence(ceiling=2.2, margin=0.3)  # it flies at 2 m
 
 
+def leaps(puppet):
+    leg = puppet.companion.itinerary._main.leg
+    leg.end = leg.end + np.array([1.5, 0.0, 0.0])
+
+
 def stalls(puppet):
     puppet.tick(700_000)
 
@@ -199,6 +204,7 @@ ROWS = [
     ("battery critical", FLYING, says(battery=6), 1.9, 2.2, Phase.LANDING, "battery at 6%: landing"),
     ("no way home", FLYING, never_returns, 31.9, 32.3, Phase.LANDING, "battery at 14%: returning"),
     ("battery low", FLYING, says(battery=14), 1.9, 2.5, Phase.LANDING, "battery at 14%: returning"),  # it is home
+    ("jump", FLYING, leaps, None, 0.1, Phase.REJOINING, ""),
     ("stalled", FLYING, stalls, None, 0.1, Phase.REJOINING, ""),
     ("adrift", FLYING, strays(1.5), 0.2, 0.5, Phase.REJOINING, ""),
 ]
@@ -695,3 +701,49 @@ def test_a_px4_that_holds_and_does_not_hear_us_is_waited_for():
     assert puppet.run(1.0).phase is Phase.REJOINING
     puppet.mode = OURS["px4"]  # our setpoints come again, too
     assert puppet.run(0.5).phase is FLYING
+
+
+@pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
+def test_a_reference_that_leaps_is_not_sent_and_a_way_to_it_is_planned(flavour):
+    puppet = Puppet(flavour, FLYING, WALLED)
+    puppet.planned = True
+    puppet.run(0.5)
+    before = puppet.companion.setpoints.reference.position_m
+    puppet.at = before
+    leaps(puppet)
+    puppet.run(0.2)
+    assert (
+        "setpoints do not follow each other: the next is 1.5 m away (hold where it is, then fly back to the path)"
+        in (puppet.notes)
+    )
+    puppet.at = None  # it follows
+    for _ in range(200):
+        puppet.tick()
+        puppet.at = puppet.companion.setpoints.reference.position_m
+    assert puppet.companion.phase is FLYING
+    places = np.array([reference.position_m for reference in puppet.references])
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 0.1
+    assert places[-1] == pytest.approx(before + np.array([1.5, 0.0, 0.0]), abs=0.06)
+
+
+def test_setpoints_stay_where_they_are_when_the_vehicle_falls_silent_on_its_way_back():
+    puppet = Puppet("px4", Phase.REJOINING)
+    puppet.run(0.2)
+    held = puppet.companion.setpoints.reference.position_m
+    puppet.says_anything = False
+    assert puppet.run(4.0).phase is Phase.LINK_LOST
+    assert np.array_equal(puppet.companion.setpoints.reference.position_m, held)
+
+
+def test_no_setpoint_ends_the_climb_of_a_vehicle_that_climbs_by_itself_and_is_not_heard():
+    puppet = Puppet("ardupilot", Phase.TAKING_OFF)
+    puppet.landed = mavlink.MAV_LANDED_STATE_TAKEOFF
+    puppet.run(0.5)
+    puppet.says_anything = False
+    assert puppet.run(5.0).phase is Phase.LINK_LOST
+    puppet.says_anything = True
+    assert puppet.run(1.0).phase is Phase.REJOINING
+    assert puppet.references == []
+    puppet.landed = AIR
+    puppet.run(0.2)
+    assert puppet.references
