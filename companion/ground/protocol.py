@@ -81,9 +81,9 @@ class MissionProtocol:
     def fence(self) -> list[Item]:
         return self._plans[FENCE]
 
-    def copy(self, other: "MissionProtocol") -> None:
-        """Keep what another keeps."""
-        self._plans = {plan: list(items) for plan, items in other._plans.items()}
+    def take_over(self, flight: "MissionProtocol") -> None:
+        """Keep the mission that another was given; its fence is the flight's, which does not change."""
+        self._plans[MISSION] = list(flight.items)
         self.uploads += 1
 
     def take(self, now_us: int, sender: Sender, message: Any) -> Answer | None:

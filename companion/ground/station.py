@@ -125,7 +125,7 @@ class GroundStation:
     def after(self, flight: "GroundStation") -> None:
         """Go on after a flight that had a station of its own: with what was uploaded meanwhile, and how far it got."""
         if flight.missions.uploads:
-            self.missions.copy(flight.missions)
+            self.missions.take_over(flight.missions)
         self.progress.complete = flight.progress.complete and not flight.missions.uploads
 
     def _sent(self, answer: Answer | None) -> list[Datagram]:

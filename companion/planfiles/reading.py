@@ -93,6 +93,8 @@ def told(items: Sequence[Item], home_altitude: float) -> Told:
     if reading.via:
         reading.goto(reading.via.pop())  # a spline's last point is where it ends
     steps = reading.steps
+    if steps and "return" in steps[-1]:
+        reading.ends[-1] += 1  # it lands, too
     if len(steps) < 2 and not (steps and "takeoff" in steps[0]):
         raise ItemFlaw(0, "found no place to go to, expected at least one")
     if "land" not in steps[-1] and "return" not in steps[-1]:

@@ -302,8 +302,9 @@ def test_the_fence_is_not_changed_in_flight_but_a_plan_for_later_is_taken():
     assert "it is not changed in flight" in client.texts()
     assert client.upload().type == mavlink.MAV_MISSION_ACCEPTED
     idle = station()
+    Client(idle).give(FENCED)
     idle.after(flight)
-    assert len(idle.missions.items) == 3
+    assert (len(idle.missions.items), len(idle.missions.fence)) == (3, len(FENCED))
 
 
 def test_a_few_items_of_a_plan_are_replaced_and_the_rest_stays():
@@ -374,10 +375,10 @@ def test_the_progress_of_an_uploaded_plan_is_told_once_a_second_and_as_it_change
     assert f.tick(Phase.FLYING, 2) == [3, (4, 7, ACTIVE)]
     assert f.tick(Phase.FLYING, 3) == []
     assert f.tick(Phase.FLYING, 4) == [4, 5, 6, (7, 7, ACTIVE)]
-    assert f.tick(Phase.LANDING, 5) == [7]
-    assert f.tick(Phase.DONE, 5) == [(7, 7, COMPLETE)]
+    assert f.tick(Phase.LANDING, 5) == []
+    assert f.tick(Phase.DONE, 5) == [7, (7, 7, COMPLETE)]
     idle = GroundStation(lambda: 1, links=("a",))
-    idle.missions.copy(f.station.missions)
+    idle.missions.take_over(f.station.missions)
     idle.after(f.station)
     (current,) = [mavlink.MAVLink(None).decode(bytearray(d.data)) for d in idle.step(0)]
     assert (current.seq, current.total, current.mission_state) == (7, 7, COMPLETE)
