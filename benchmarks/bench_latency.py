@@ -109,11 +109,18 @@ def one_core() -> Iterator[None]:
         os.sched_setaffinity(0, cores)
 
 
-def before_others(*pids: int) -> None:
-    """Let the kernel serve these processes' sessions before other people's (Linux, as root); what else it is, stays."""
-    for pid in pids:
+@contextmanager
+def before_others(vehicle: int) -> Iterator[None]:
+    """Let the kernel serve our session and the vehicle's before other people's (Linux, as root; else nothing happens)."""
+    ours = Path("/proc/self/autogroup")
+    try:
+        for session in (ours, Path(f"/proc/{vehicle}/autogroup")):
+            with suppress(OSError):
+                session.write_text("-20")
+        yield
+    finally:
         with suppress(OSError):
-            Path(f"/proc/{pid}/autogroup").write_text("-20")
+            ours.write_text("0")
 
 
 def fly(
@@ -134,7 +141,7 @@ def fly(
         url, log = f"udpout:{host}:{port}", folder / "vehicle.log"
         vehicle = stack.enter_context(running_vehicle(mission, url, seed, log, autopilot))
         if first:
-            before_others(os.getpid(), vehicle.pid)
+            stack.enter_context(before_others(vehicle.pid))
         file = folder / f"{time.monotonic_ns()}.mcap"
         recorder = stack.enter_context(Recorder(file, threaded=True, **header(companion, data)))
         taps: list[Tap] = [meter, RecordingTap(companion, recorder), timing]
