@@ -163,6 +163,16 @@ class FlightMeter:
         """The flight as it was; None when the vehicle does not tell, or never flew."""
         return self._track(self._truths, self._of_truths, self._truth_to_mission)
 
+    def aloft_path(self) -> FloatArray:
+        """(n, 4) when [us] and where in the mission frame [m], by the truth if it is told; what is kept of it."""
+        places = ((self._truths, self._truth_to_mission), (self._estimates, self._estimate_to_mission))
+        for samples, to_mission_frame in places:
+            if len(samples):
+                rows = samples.all()
+                path: FloatArray = np.column_stack([rows[:, 0], to_mission_frame(rows)])[self._aloft(rows)]
+                return path
+        return np.empty((0, 4))
+
     def setpoint_gaps_ms(self) -> FloatArray:
         """(n - 1,) spacing of the setpoints that are kept, as they left [ms]."""
         gaps: FloatArray = np.diff(self._sent.all()[:, 0]) / 1e3

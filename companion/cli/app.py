@@ -53,7 +53,9 @@ def demo(
 @app.command()
 def fly(
     mission: MissionFile,
-    master: Annotated[str, typer.Option(metavar="URL", help="Where the vehicle is, e.g. udpin:127.0.0.1:14540.")],
+    master: Annotated[
+        str | None, typer.Option(metavar="URL", help="Where the vehicle is, e.g. udpin:127.0.0.1:14540.")
+    ] = None,
     out: Outs = None,
     record: RecordDirectory = RECORDINGS,
     seed: Seed = 1,
@@ -63,12 +65,15 @@ def fly(
     wait: Annotated[
         float, typer.Option(help="How long to wait for the vehicle's first HEARTBEAT [s].", min=0.1, max=86_400.0)
     ] = 60.0,
+    autopilot: Annotated[
+        Literal["px4", "ardupilot"] | None, typer.Option(help="Of bundled vehicles, where the file has several.")
+    ] = None,
     json: Json = False,
 ) -> None:
-    """Fly a mission on a vehicle behind a MAVLink/UDP endpoint."""
+    """Fly a mission on a vehicle behind a MAVLink/UDP endpoint, or one of several `vehicles` on bundled ones."""
     from companion.cli.fly import fly_mission
 
-    raise typer.Exit(fly_mission(mission, master, out or [], record, seed, system_id, wait, json))
+    raise typer.Exit(fly_mission(mission, master, out or [], record, seed, system_id, wait, autopilot, json))
 
 
 @app.command()

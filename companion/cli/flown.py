@@ -2,9 +2,9 @@
 
 import subprocess
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
-from dataclasses import asdict
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,13 +18,44 @@ from companion.drivers.planning import WorkerPlanning
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
-from companion.mission import Mission
-from companion.verdict import FlightMeter, judge
+from companion.mission import Expect, Mission
+from companion.seam import FloatArray
+from companion.verdict import FlightMeter, Verdict, judge
 from logs.errors import RecordingError
 from logs.recorder import Recorder
 from logs.recovery import recover_unfinished
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
+
+Progress = Callable[[Companion, FlightMeter, Console], AbstractContextManager[Tap]]
+
+
+@dataclass(frozen=True, slots=True)
+class Flown:
+    """A flight that is over.
+
+    Attributes
+    ----------
+    path : (n, 4) when [us since 1970] and where in the mission frame [m] it was, from the takeoff until it disarmed.
+    """
+
+    verdict: Verdict
+    expect: Expect
+    recording: Path
+    messages: int
+    losses: dict[str, int]
+    path: FloatArray
+
+    def tell(self, as_json: bool) -> int:
+        """Print what came of it; returns the exit code."""
+        if as_json:
+            numbers = {"recording": str(self.recording), "messages_recorded": self.messages, **self.losses}
+            show.print_json({**show.verdict_json(self.verdict), **numbers})
+        else:
+            shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in self.losses.items())
+            details = {"messages": str(self.messages), "losses": shown, "recording": str(self.recording)}
+            show.print_verdict(self.verdict, self.expect, details, Console())
+        return 0 if self.verdict.ok else 1
 
 
 def fly_recorded(
@@ -33,11 +64,20 @@ def fly_recorded(
     endpoints: Mapping[str, Endpoint],
     file: Path,
     config: CompanionConfig,
-    as_json: bool,
     operator: Operator,
+    *,
     watch: "subprocess.Popen[bytes] | None" = None,
-) -> int:
-    """Prepare, fly, close everything properly, judge; returns the exit code."""
+    progress: Progress = show.ProgressLine,
+    go: Callable[[], bool] = lambda: True,
+) -> Flown:
+    """Prepare, fly, close everything properly, judge.
+
+    Parameters
+    ----------
+    watch : a process whose end is the flight's.
+    progress : what a person sees of it.
+    go : asked once when all is prepared; False: it is not flown.
+    """
     out = show.console()
     for recovered in recover_unfinished(file.parent):
         out.print(show.plain(str(recovered)), soft_wrap=True)
@@ -46,16 +86,16 @@ def fly_recorded(
     with ExitStack() as stack:
         with _open(endpoints):
             pass  # a busy port is told before the kernels are compiled
-        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses())
+        planning = WorkerPlanning(mission.planner_world(), replans=mission.senses() or config.fleet_number > 0)
         stack.callback(planning.close)
-        if not _warm(mission, planning, operator, out):
+        if not _warm(mission, planning, operator, out) or not go():
             raise CompanionError("stopped before the flight began")
         links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
         urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
         start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
         recorder = stack.enter_context(Recorder(file, threaded=True, **start))
-        progress = stack.enter_context(show.ProgressLine(companion, meter, out))
-        taps: list[Tap] = [meter, RecordingTap(companion, recorder), progress]
+        taps: list[Tap] = [meter, RecordingTap(companion, recorder)]
+        taps.append(stack.enter_context(progress(companion, meter, out)))
         stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
         told = lambda text, trace: out.print(f"{text}\n{trace}", markup=False, soft_wrap=True)  # noqa: E731  once
         pace = fly_guarded(companion, links, planning, taps, operator=operator, stop=stop, told=told)
@@ -67,7 +107,7 @@ def fly_recorded(
         except RecordingError as error:  # the flight went on without it; the verdict must not
             companion.failure = companion.failure or str(error)
         kernel_drops = sum(link.counters.drops for link in links.values())
-    verdict, counters = judge(companion, meter), recorder.counters
+    counters = recorder.counters
     losses = {
         "kernel_drops": kernel_drops,
         "recorder_drops": counters.dropped_raw + counters.dropped_decoded,
@@ -75,14 +115,7 @@ def fly_recorded(
         "late_ticks": pace.late,
         "missed_ticks": pace.missed,
     }
-    numbers = {"recording": str(file), "messages_recorded": total(counters), **losses}
-    if as_json:
-        show.print_json({**show.verdict_json(verdict), **numbers})
-    else:
-        shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in losses.items())
-        details = {"messages": str(total(counters)), "losses": shown, "recording": str(file)}
-        show.print_verdict(verdict, mission.expect, details, Console())
-    return 0 if verdict.ok else 1
+    return Flown(judge(companion, meter), mission.expect, file, total(counters), losses, meter.aloft_path())
 
 
 @contextmanager

@@ -4,11 +4,12 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import typer
+
 from companion.cli.flown import fly_recorded, vehicle_log
 from companion.cli.operator import Operator
 from companion.core import CompanionConfig
-from companion.errors import MissionError
-from companion.fleet.missions import has_vehicles
+from companion.fleet.missions import has_vehicles, split
 from companion.missionfile import parse_mission, read_mission_file
 from companion.service.queue import recording_file
 from companion.vehiclelink import VEHICLE_LINK
@@ -32,23 +33,34 @@ def fly_demo(record: Path, outs: list[str], seed: int, autopilot: "Autopilot", a
     config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
     operator, url = Operator(), f"udpout:{host}:{port}"
     with operator.listening(), running_vehicle(mission, url, seed, vehicle_log(file), autopilot) as vehicle:
-        return fly_recorded(mission, data, endpoints, file, config, as_json, operator, watch=vehicle)
+        return fly_recorded(mission, data, endpoints, file, config, operator, watch=vehicle).tell(as_json)
 
 
 def fly_mission(
     path: Path,
-    master: str,
+    master: str | None,
     outs: list[str],
     record: Path,
     seed: int,
     system_id: int | None,
     wait_s: float,
+    autopilot: "Autopilot | None",
     as_json: bool,
 ) -> int:
-    """Fly `path` on whatever answers at `master`; returns the exit code."""
+    """Fly `path` on whatever answers at `master`, or its several vehicles on bundled ones; returns the exit code."""
     data = read_mission_file(path)
     if has_vehicles(data):
-        raise MissionError(str(path), ["vehicles: found several, expected one: companion simulate flies several"])
+        from companion.cli.several import fly_several
+
+        if master is not None or outs or system_id is not None:
+            several = "of a file with vehicles each is a bundled one, at a port of its own"
+            raise typer.BadParameter(f"found with {path}, expected without: {several}", param_hint="--master")
+        return fly_several(split(data, str(path)), path, seed, record, autopilot or "px4", as_json)
+    if master is None:
+        raise typer.BadParameter("found nothing, expected the URL where the vehicle is", param_hint="--master")
+    if autopilot is not None:
+        told = "found with one vehicle, which tells itself what it is, expected with a file of several"
+        raise typer.BadParameter(told, param_hint="--autopilot")
     mission = parse_mission(data, str(path))
     endpoints = {VEHICLE_LINK: Endpoint.parse(master)} | ground_endpoints(outs)
     config = CompanionConfig(
@@ -60,7 +72,8 @@ def fly_mission(
     )
     operator = Operator()
     with operator.listening():
-        return fly_recorded(mission, data, endpoints, recording_file(record, mission), config, as_json, operator)
+        file = recording_file(record, mission)
+        return fly_recorded(mission, data, endpoints, file, config, operator).tell(as_json)
 
 
 def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:

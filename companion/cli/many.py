@@ -1,8 +1,9 @@
-"""`companion simulate` of a mission with `vehicles:`: all of them in one lockstep, told of each other."""
+"""`companion simulate` of a mission with `vehicles:`: all in one lockstep; and what is told of several flights."""
 
 import math
 import time
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -10,7 +11,7 @@ from rich.table import Table
 from companion.cli import show
 from companion.cli.operator import STOPPED, Operator
 from companion.fleet.missions import Part
-from companion.testing.many import fly_many
+from companion.testing.many import ManyResult, fly_many
 from fakevehicle.config import Autopilot
 from planner import replan, warm_up
 
@@ -29,10 +30,29 @@ def simulate_many(parts: list[Part], seed: int, record: Path | None, autopilot: 
     with operator.listening(), show.working(out, f"flying {len(parts)} vehicles"):
         result = fly_many(parts, seed, autopilot, record=record, stop=lambda: operator.asked > 0)
     wall = time.perf_counter() - wall
+    more = {"simulated_s": result.simulated_s, "speedup": result.simulated_s / wall}
+    return tell_many(parts, result, [STOPPED] if operator.asked else [], seed, record, more, as_json)
+
+
+def tell_many(
+    parts: list[Part],
+    result: ManyResult,
+    failures: list[str],
+    seed: int,
+    record: Path | None,
+    more: dict[str, Any],
+    as_json: bool,
+) -> int:
+    """Print what came of flights of several; returns the exit code.
+
+    Parameters
+    ----------
+    failures : what went wrong beside what the verdicts say.
+    more : for the JSON object.
+    """
     touching = max(2 * part.mission.vehicle.radius for part in parts)
     separation = result.separation_m if math.isfinite(result.separation_m) else None
     first, second, at_s = result.nearest
-    failures = [STOPPED] if operator.asked else []
     for part, verdict in zip(parts, result.verdicts, strict=True):
         failures += [f"{part.name}: {text}" for text in (verdict.failure, *verdict.failed_expectations) if text]
     if separation is not None and separation < touching:
@@ -51,8 +71,7 @@ def simulate_many(parts: list[Part], seed: int, record: Path | None, autopilot: 
                 "seed": seed,
                 "failure": failures[0] if failures else "",
                 "separation_m": separation,
-                "simulated_s": result.simulated_s,
-                "speedup": result.simulated_s / wall,
+                **more,
                 "recording": None if record is None else str(record),
                 "vehicles": verdicts,
             }

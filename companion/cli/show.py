@@ -76,6 +76,25 @@ class ProgressLine:
         return "  ".join(parts)
 
 
+class NamedNotes:
+    """A tap: prints notes as they come with the name of who says them, where several fly at once."""
+
+    def __init__(self, name: str, meter: FlightMeter, out: Console) -> None:
+        self._name, self._meter, self._out = name, meter, out
+
+    def __enter__(self) -> "NamedNotes":
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        """Nothing to give back."""
+
+    def __call__(self, tick: Tick) -> None:
+        for output in tick.outputs:
+            if isinstance(output, Note):
+                head = f"[dim]{self._meter.duration_s:7.2f} s[/dim]  {plain(self._name)}: "
+                self._out.print(f"{head}[{STYLES[output.level]}]{plain(output.text)}[/]", soft_wrap=True)
+
+
 def plain(text: str) -> str:
     """Text from a peer, with nothing that the terminal or the markup would obey."""
     return "".join(c if c.isprintable() else "?" for c in text).replace("[", "\\[")
