@@ -111,7 +111,7 @@ def one_core() -> Iterator[None]:
 
 @contextmanager
 def before_others(vehicle: int) -> Iterator[None]:
-    """Let the kernel serve our session and the vehicle's before other people's (Linux, as root; else nothing happens)."""
+    """Let the kernel serve our session and the vehicle's before other people's; only on Linux, as root."""
     ours = Path("/proc/self/autogroup")
     try:
         for session in (ours, Path(f"/proc/{vehicle}/autogroup")):
