@@ -34,6 +34,7 @@ class RecordingInfo:
 
     Attributes
     ----------
+    size_bytes, parts : of all files of the recording together.
     complete, problem : whether the file was closed properly, and if not, what is wrong.
     start_ns, end_ns, duration_s : first and last log time [ns], and between them [s].
     topics : by name; links : in order of first appearance.
@@ -42,6 +43,7 @@ class RecordingInfo:
 
     path: Path
     size_bytes: int
+    parts: int
     complete: bool
     problem: str
     library: str
@@ -85,7 +87,8 @@ def info(path: Path) -> RecordingInfo:
     duration_s = (end_ns - start_ns) / 1e9
     return RecordingInfo(
         path=path,
-        size_bytes=path.stat().st_size,
+        size_bytes=sum(part.stat().st_size for part in recording.paths),
+        parts=len(recording.paths),
         complete=recording.complete,
         problem=recording.problem,
         library=recording.library,

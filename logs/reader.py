@@ -25,11 +25,15 @@ from mcap.records import Channel, Chunk, DataEnd, Footer, Header, Metadata, Sche
 from logs import schema
 from logs.container import MAGIC, Attachment, Direction
 from logs.errors import RecordingError, SchemaVersionError
+from logs.parts import PART, later_parts, number_of
 from wire.datagram import Address
 
 _RECORD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
 _MAX_CHUNK = 256 * 1024 * 1024  # a chunk that claims to be larger is damage; ours end at 1 MiB
+
+RECOVERY = "recovery"
+"""Name of the table that says a file was recovered."""
 
 Order = Literal["file", "time"]
 
@@ -65,21 +69,22 @@ class RecordedMessage:
 
 
 class Recording:
-    """A recording opened for reading; it keeps the path, not the file open.
+    """A recording opened for reading; it keeps the paths, not the files open.
 
     Attributes
     ----------
-    path : the file.
+    path : the file, or the first of its parts. paths : all of them.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self.paths = (path, *later_parts(path))
         self._types: dict[str, type[Any]] = {}
         self._schemas: dict[str, bytes] = {}
 
     @classmethod
     def open(cls, path: Path) -> "Recording":
-        """Open a recording and read its header and tables.
+        """Open a recording and read its header and tables. Of several parts the first stands for all.
 
         Raises
         ------
@@ -103,13 +108,23 @@ class Recording:
         return self._overview.problem
 
     @property
+    def recovered(self) -> bool:
+        """Whether its end was made anew (`logs.recovery`): then its last tick may be cut off, complete as it is."""
+        return RECOVERY in self.metadata
+
+    @property
+    def gaps(self) -> tuple[str, ...]:
+        """What is missing between its parts, in words."""
+        return self._overview.gaps
+
+    @property
     def library(self) -> str:
         """Who wrote the file, by its own header."""
         return self._overview.library
 
     @property
     def metadata(self) -> Mapping[str, Mapping[str, str]]:
-        """The tables of strings, by name."""
+        """The tables of strings, by name; of several parts, as the last says that has it."""
         return self._overview.metadata
 
     @property
@@ -157,6 +172,11 @@ class Recording:
         overview = _Overview("", {}, {}, "")
         for item in self._scan(messages=False):
             match item:
+                case Metadata(name=name, metadata=values) if name == PART and "gap" in values:
+                    missing = f"{values.get('gap_missing', '?')} entries are missing before part {values.get('number')}"
+                    overview.gaps += (f"{missing}: {values['gap']}",)
+                    overview.problem = overview.problem or overview.gaps[-1]
+                    overview.metadata[name] = values
                 case Header(library=library):
                     overview.library = library
                 case Metadata(name=name, metadata=values):
@@ -164,25 +184,34 @@ class Recording:
                 case McapAttachment(name=name, media_type=media_type, data=data):
                     overview.attachments[name] = Attachment(name, media_type, data)
                 case _Problem(text=text):
-                    overview.problem = text
+                    overview.problem = overview.problem or text
                 case _:
                     pass
         return overview
 
     def _scan(self, messages: bool = True) -> Iterator[Any]:
-        """Every record in the order of the file; ends with a `_Problem` where the file does."""
-        try:
-            with open(self.path, "rb") as file:
-                yield from self._scan_file(file, messages)
-        except OSError as error:
-            raise RecordingError(self.path, f"cannot read the file: {error.strerror or error}") from error
+        """Every record in the order of the parts; a `_Problem` where one ends that should not end there."""
+        for number, path in enumerate(self.paths, start=1):
+            expected = number_of(self.path, path)
+            if number > 1 and expected != number_of(self.path, self.paths[number - 2]) + 1:
+                yield _Problem(f"the part before {path.name} is not there")
+            try:
+                with open(path, "rb") as file:
+                    for item in self._scan_file(path, file, messages):
+                        yield _Problem(f"{path.name}: {item.text}") if number > 1 and type(item) is _Problem else item
+            except OSError as error:
+                raise RecordingError(path, f"cannot read the file: {error.strerror or error}") from error
+            except RecordingError as error:
+                if number == 1:
+                    raise
+                yield _Problem(str(error))
 
-    def _scan_file(self, file: BinaryIO, messages: bool) -> Iterator[Any]:
+    def _scan_file(self, path: Path, file: BinaryIO, messages: bool) -> Iterator[Any]:
         magic = file.read(len(MAGIC))
         if not magic:
-            raise RecordingError(self.path, "the file is empty")
+            raise RecordingError(path, "the file is empty")
         if magic != MAGIC:
-            raise RecordingError(self.path, f"not an MCAP file (it begins with {magic!r})")
+            raise RecordingError(path, f"not an MCAP file (it begins with {magic!r})")
         size = file.seek(0, 2)
         position = file.seek(len(MAGIC))
         channels: dict[int, ChannelInfo] = {}
@@ -257,6 +286,7 @@ class _Overview:
     metadata: dict[str, dict[str, str]]
     attachments: dict[str, Attachment]
     problem: str
+    gaps: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

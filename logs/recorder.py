@@ -1,4 +1,4 @@
-"""The recorder: everything that crosses the seam, into one MCAP file.
+"""The recorder: everything that crosses the seam, into MCAP files.
 
 Three families of channels:
     /mavlink/raw/<link>/rx, .../tx       every datagram as it crossed the socket; one channel a peer (`peer` in the
@@ -10,22 +10,28 @@ Three families of channels:
 The seam is a table, and a message says where it belongs in it: log_time is when it happened, publish_time the tick's
 `now_us`, both in [ns], `sequence` the index of the tick that took or gave it. The order in the file is the order
 at the seam.
+
+What is lost is counted where it is lost: in the kernel, on the way, in the queue, on the disk (`/companion/losses`).
+A disk that is full ends a part, not the recording: what is on the disk is closed properly, and a new part is tried
+every `RETRY_S`. Keys are masked (`logs.secrets`).
 """
 
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 from logs import schema
-from logs.container import Attachment, Container, Direction
+from logs.channels import Channels
+from logs.container import Attachment, Direction
 from logs.errors import RecordingError
-from logs.lock import lock
-from logs.transcode import Transcoder, transcoder
+from logs.parts import MOST_PARTS, Gap, Parts, Room, Rotation
+from logs.secrets import masked
 from wire.datagram import Address
 from wire.framing import Framer
 
@@ -37,22 +43,27 @@ DECODE_BACKLOG = 20_000
 """Items waiting for the writer thread above which packets are no longer decoded, only kept raw (and counted)."""
 MAX_BACKLOG = 200_000
 """Items waiting above which new ones are dropped, and counted as such."""
-MAX_DECODED_CHANNELS = 8192
-"""Channels for decoded packets; MCAP allows 65535 in all, and a hostile peer could ask for more."""
-MAX_RAW_CHANNELS = 4096
+LOSSES_S = 1.0
+"""Losses are recorded this often at most [s]."""
+RETRY_S = 5.0
+"""A new part is tried this often while the disk is full [s]."""
+MAX_NOTICES = 100
 
 
 @dataclass(frozen=True, slots=True)
 class RecorderCounters:
-    """What is in the file, and what is not.
+    """What is in the files, and what is not.
 
     Attributes
     ----------
     rx, tx : datagrams recorded, by link.
     decoded : packets recorded as protobuf.
     messages : our own records.
-    dropped_decoded : packets recorded raw only, since the writer was behind or there were too many senders.
-    dropped_raw : datagrams and records that are not in the file: the writer was far behind, or the disk failed.
+    dropped_decoded : packets recorded raw only: the writer was behind, there were too many senders, or the disk was
+        filling up; and those lost with a chunk that did not fit.
+    dropped_raw : datagrams and records that are not in the files: the writer was far behind, or the disk failed.
+    masked : datagrams whose key was masked.
+    parts : files.
     """
 
     rx: Mapping[str, int] = field(default_factory=dict)
@@ -61,24 +72,40 @@ class RecorderCounters:
     messages: int = 0
     dropped_decoded: int = 0
     dropped_raw: int = 0
+    masked: int = 0
+    parts: int = 1
+
+
+# What waits for the writer. Plain tuples: one is made for every datagram, in the flight loop.
+_Datagram = tuple[int, int, int, str, Direction, bytes, Address | None]  # log time [ns], now [us], tick, ...
+_Message = tuple[int, int, int, str, schema.Record]
+_Table = tuple[str, Mapping[str, str]]
+_Item = _Datagram | _Message | _Table
 
 
 class Recorder:
-    """Records one flight into one new file.
+    """Records one flight into one new file, or several parts.
 
     Parameters
     ----------
-    path : the file to make; an existing one is never touched.
+    path : the file to make; an existing one is never touched. Further parts stand beside it (`logs.parts`).
     metadata : named tables of strings, written first ("run": version, seed, endpoints ...).
     attachments : files written first (mission ...).
     threaded : True: a thread frames, transcodes and writes, so the caller only pays for a queue, and the file is
         flushed every `FLUSH_S` of real time. False: everything at once in the caller, flushed every `FLUSH_S` of log
         time; the same calls then give a byte-identical file.
+    rotation : when a part ends; checked where the file is flushed.
+    room : how much space must be left on the disk; watched with a thread only.
+    losses : further counters of what is lost, such as the sockets'; read from the writer's thread.
+
+    Attributes
+    ----------
+    failure : why something is not in the files; empty as long as everything is.
 
     Raises
     ------
     RecordingError    Here: the file exists or cannot be made. From `close`: the disk failed on the way; what went in
-        until then is readable. The calls between never raise for the disk: the flight goes on, `failure` says why.
+        is readable. The calls between never raise for the disk: the flight goes on, `failure` says why.
     """
 
     def __init__(
@@ -88,39 +115,36 @@ class Recorder:
         metadata: Mapping[str, Mapping[str, str]],
         attachments: Sequence[Attachment] = (),
         threaded: bool,
+        rotation: Rotation | None = None,
+        room: Room | None = None,
+        losses: Callable[[], Mapping[str, int]] | None = None,
     ) -> None:
         self.path = path
         self.failure = ""
-        try:
-            self._file = open(path, "xb", buffering=0)  # noqa: SIM115  closed by `close`
-        except FileExistsError:
-            raise RecordingError(path, "the file exists already; a recording is never overwritten") from None
-        except OSError as error:
-            raise RecordingError(path, f"cannot make the file: {error.strerror or error}") from error
-        lock(self._file)  # for as long as this process lives: nobody recovers what is still being written
-        try:
-            self._container = Container(self._file)
-            self._container.add_metadata("schema", {"version": str(schema.SCHEMA_VERSION), "dialect": "all"})
-            for name, values in metadata.items():
-                self._container.add_metadata(name, values)
-            for attachment in attachments:
-                self._container.add_attachment(attachment.name, attachment.media_type, attachment.data)
-        except OSError as error:
-            self._file.close()
-            raise RecordingError(path, f"cannot write: {error.strerror or error}") from error
+        self._notices: deque[str] = deque(maxlen=MAX_NOTICES)
+        self._rotation = rotation or Rotation()
+        self._parts = Parts(path, metadata, attachments, numbered=rotation is not None)
+        assert self._parts.container is not None
+        self._container, self._channels = self._parts.container, Channels(self._parts.container)
         self._closed = False
-        self._rx: dict[str, int] = {}
-        self._tx: dict[str, int] = {}
-        self._decoded = self._messages = self._dropped_decoded = self._dropped_raw = 0
+        self._counts: dict[str, dict[str, int]] = {"rx": {}, "tx": {}}
+        self._counts |= {family: {"": 0} for family in ("decoded", "messages", "aside")}
+        self._rx, self._tx = self._counts["rx"], self._counts["tx"]
+        self._dropped_decoded = self._dropped_raw = self._masked = 0
         self._framers: dict[tuple[str, Direction], Framer] = {}
-        self._raw_channels: dict[tuple[str, Direction, Address | None], int] = {}
-        self._packet_channels: dict[int, tuple[int, Transcoder]] = {}
-        self._record_channels: dict[tuple[str, type[schema.Record]], int] = {}
-        self._schemas: dict[str, int] = {}
         self._seen: set[bytes] = set()  # datagrams decoded in tick `_seen_tick`
         self._seen_tick = -1
-        self._flushed_ns: int | None = None
-        self._queue: deque[Callable[[bool], int]] = deque()
+        self._last = (0, 0, 0)  # log time, now and tick of the newest item
+        self._gap: Gap | None = None  # nothing is being written
+        self._broken = False  # nor will be
+        self._whole_to_ns = 0  # everything up to this log time is on the disk
+        self._more_losses = losses or (lambda: {})
+        self._told_losses: dict[str, int] = {}
+        self._room, self._threaded = room or Room(), threaded
+        self._decodes = True  # there is room for it
+        self._warned = False
+        self._flush_at = self._losses_at = self._retry_at = self._part_ends_at = -1  # [ns] of `_now_ns`
+        self._queue: deque[_Item] = deque()
         self._overflowed = 0  # counted by the caller, `_dropped_raw` by the writer: no two threads add to one number
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
@@ -153,18 +177,19 @@ class Recorder:
         ------
         ValueError    A negative time or tick, or the recorder is closed.
         """
-        _check_times(log_time_ns, now_us, tick)
-        self._put(lambda decode: self._datagram(link, direction, data, log_time_ns, now_us, tick, peer, decode))
+        if log_time_ns < 0 or now_us < 0 or tick < 0:
+            _negative(log_time_ns, now_us, tick)
+        self._put((log_time_ns, now_us, tick, link, direction, data, peer))
 
     def message(self, topic: str, message: schema.Record, *, log_time_ns: int, now_us: int, tick: int) -> None:
         """Record one of our records; times and tick as in `datagram`."""
-        _check_times(log_time_ns, now_us, tick)
-        self._put(lambda _: self._message(topic, message, log_time_ns, now_us, tick))
+        if log_time_ns < 0 or now_us < 0 or tick < 0:
+            _negative(log_time_ns, now_us, tick)
+        self._put((log_time_ns, now_us, tick, topic, message))
 
     def metadata(self, name: str, values: Mapping[str, str]) -> None:
         """Record a table of strings known only later, such as the outcome or the sockets' counters."""
-        kept = dict(values)
-        self._put(lambda _: self._metadata(name, kept))
+        self._put((name, dict(values)))
 
     @property
     def counters(self) -> RecorderCounters:
@@ -172,11 +197,25 @@ class Recorder:
         return RecorderCounters(
             rx=dict(self._rx),
             tx=dict(self._tx),
-            decoded=self._decoded,
-            messages=self._messages,
+            decoded=self._counts["decoded"][""],
+            messages=self._counts["messages"][""] + self._counts["aside"][""],
             dropped_decoded=self._dropped_decoded,
             dropped_raw=self._dropped_raw + self._overflowed,
+            masked=self._masked,
+            parts=self._parts.number,
         )
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """The files so far."""
+        return tuple(self._parts.paths)
+
+    def notices(self) -> list[str]:
+        """What a person should know of the recording and has not been given here before: the disk fills up, is full."""
+        told = []
+        while self._notices:
+            told.append(self._notices.popleft())
+        return told
 
     def close(self) -> None:
         """Write what is waiting, the loss counters and the summary; may be called twice.
@@ -191,12 +230,15 @@ class Recorder:
         if self._thread is not None:
             self._wake.set()
             self._thread.join()
+        if self._gap is not None and not self._broken:
+            self._retry_at = -1
+            self._retry()
         self._attempt(self._finish)
-        self._file.close()
+        self._parts.close()
         if self.failure:
-            raise RecordingError(
-                self.path, f"{self.failure}; {self.counters.dropped_raw} entries are missing at its end"
-            )
+            missing = self.counters.dropped_raw
+            where = "at its end" if self._gap is not None or self._broken else "between its parts"
+            raise RecordingError(self.path, f"{self.failure}; {missing} entries are missing {where}")
 
     def __enter__(self) -> Self:
         return self
@@ -210,79 +252,105 @@ class Recorder:
 
     # ---- the caller's side of the queue -------------------------------------------------------------------------
 
-    def _put(self, write: Callable[[bool], int]) -> None:
+    def _put(self, item: _Item) -> None:
         """Write now, or leave it to the thread."""
         if self._closed:
             raise ValueError(f"recorder of {self.path} is closed")
         if self._thread is None:
-            self._write(write, True)
+            self._write(item, True)
+            if len(item) > 2:
+                self._look()
         elif len(self._queue) >= MAX_BACKLOG:
             self._overflowed += 1
         else:
-            self._queue.append(write)
+            self._queue.append(item)
 
     def _run(self) -> None:
         """The writer thread: take what is there, write it, sleep."""
-        flush_at = time.monotonic() + FLUSH_S
+        queue, write = self._queue, self._write
         while True:
             closing = self._wake.wait(BATCH_S)
-            while self._queue:
-                self._write(self._queue.popleft(), len(self._queue) < DECODE_BACKLOG)
-                if time.monotonic() >= flush_at:
-                    self._attempt(self._container.flush)
-                    flush_at = time.monotonic() + FLUSH_S
-            if time.monotonic() >= flush_at:
-                self._attempt(self._container.flush)
-                flush_at = time.monotonic() + FLUSH_S
+            while queue:
+                for _ in range(min(256, len(queue))):
+                    write(queue.popleft(), len(queue) < DECODE_BACKLOG and self._decodes)
+                self._look()
+            self._look()
             if closing:
                 return
 
     # ---- the writing side ---------------------------------------------------------------------------------------
 
-    def _write(self, write: Callable[[bool], int], decode: bool) -> None:
-        """Run one write; without a thread, also end the chunk when its time has come."""
-        if self.failure:
+    def _now_ns(self) -> int:
+        """Real time with a thread; without, log time, so that the same calls give the same bytes."""
+        return time.monotonic_ns() if self._threaded else self._last[0]
+
+    def _write(self, item: _Item, decode: bool) -> None:
+        """Put one item into the present part; between two parts it is counted as missing."""
+        if len(item) > 2:
+            self._last = item[:3]
+        if self._gap is not None:
             self._dropped_raw += 1
             return
         try:
-            log_ns = write(decode)
-            if self._thread is None and log_ns:
-                if self._flushed_ns is None:
-                    self._flushed_ns = log_ns
-                elif log_ns - self._flushed_ns >= FLUSH_S * 1e9:
-                    self._flushed_ns = log_ns
-                    self._container.flush()
+            if len(item) == 7:
+                self._datagram(item, decode)
+            elif len(item) == 5:
+                self._message(item)
+            else:
+                self._container.add_metadata(*item)
         except OSError as error:
-            self.failure = f"writing failed: {error.strerror or error}"
-            self._dropped_raw += 1
+            self._abandon(error)
         except Exception as error:
             # Whatever it is, a writer thread must not die without a word: `close` tells it.
             if self._thread is None:
                 raise
-            self.failure = f"writing failed: {type(error).__name__}: {error}"
-            self._dropped_raw += 1
+            self._break(error)
+
+    def _look(self) -> None:
+        """What has its time: flushing, losses, the disk's room, the end of a part."""
+        now_ns = self._now_ns()
+        if now_ns < self._flush_at:
+            return
+        if self._gap is not None:
+            self._retry()
+            return
+        if self._flush_at < 0:
+            if now_ns:
+                self._flush_at, self._losses_at = now_ns + _ns(FLUSH_S), now_ns + _ns(LOSSES_S)
+                self._part_begins(now_ns)
+            return
+        self._flush_at = now_ns + _ns(FLUSH_S)
+        if now_ns >= self._losses_at:
+            self._losses_at = now_ns + _ns(LOSSES_S)
+            self._attempt(self._record_losses)
+        self._attempt(self._flush)
+        if self._gap is None and self._threaded:
+            self._watch_room()
+        if self._gap is None and self._part_is_full(now_ns):
+            self._rotate()
+
+    def _flush(self) -> None:
+        newest = self._last[0]
+        self._container.flush()
+        self._whole_to_ns = newest
 
     def _attempt(self, action: Callable[[], None]) -> None:
-        if self.failure:
+        if self._gap is not None:
             return
         try:
             action()
         except OSError as error:
-            self.failure = f"writing failed: {error.strerror or error}"
+            self._abandon(error)
 
-    def _datagram(
-        self,
-        link: str,
-        direction: Direction,
-        data: bytes,
-        log_ns: int,
-        now_us: int,
-        tick: int,
-        peer: Address | None,
-        decode: bool,
-    ) -> int:
+    def _datagram(self, item: _Datagram, decode: bool) -> None:
+        log_ns, now_us, tick, link, direction, data, peer = item
+        clean = masked(data)
+        if clean is not data:
+            data = clean
+            self._masked += 1
         publish_ns = now_us * 1000
-        self._container.add_message(self._raw_channel(link, direction, peer), tick, log_ns, publish_ns, data)
+        add = self._container.add_message
+        add(self._channels.raw(link, direction, peer), tick, log_ns, publish_ns, data)
         counts = self._rx if direction == "rx" else self._tx
         counts[link] = counts.get(link, 0) + 1
         if tick != self._seen_tick:
@@ -290,77 +358,62 @@ class Recorder:
             self._seen_tick = tick
         again = data in self._seen
         if again and direction == "tx":
-            return log_ns
+            return
         self._seen.add(data)
         framer = self._framers.get((link, direction))
         if framer is None:
             framer = self._framers[link, direction] = Framer()
+        known = self._channels.packets
         for packet in framer.packets(data):
             if again:
                 continue
             key = packet.message_id << 16 | packet.system_id << 8 | packet.component_id
-            target = self._packet_channels.get(key)
+            target = known.get(key)
             if target is None:
-                target = self._packet_channel(packet.message_id, packet.system_id, packet.component_id, key)
+                try:
+                    target = self._channels.packet(key)
+                except LookupError:
+                    self._dropped_decoded += 1
                 if target is None:
                     continue
             if not decode:
                 self._dropped_decoded += 1
                 continue
-            self._container.add_message(target[0], tick, log_ns, publish_ns, target[1](packet.payload))
-            self._decoded += 1
-        return log_ns
+            add(target[0], tick, log_ns, publish_ns, target[1](packet.payload))
+            self._counts["decoded"][""] += 1
 
-    def _message(self, topic: str, message: schema.Record, log_ns: int, now_us: int, tick: int) -> int:
-        kind = type(message)
-        channel = self._record_channels.get((topic, kind))
-        if channel is None:
-            schema_id = self._schema(schema.schema_name(kind), schema.DESCRIPTOR_SET)
-            channel = self._container.add_channel(topic, "protobuf", schema_id, {})
-            self._record_channels[topic, kind] = channel
+    def _message(self, item: _Message) -> None:
+        log_ns, now_us, tick, topic, message = item
+        channel = self._channels.record(topic, type(message))
         self._container.add_message(channel, tick, log_ns, now_us * 1000, schema.encode(message))
-        self._messages += 1
-        return log_ns
+        self._counts[self._channels.kinds[channel].family][""] += 1
 
-    def _metadata(self, name: str, values: Mapping[str, str]) -> int:
-        self._container.add_metadata(name, values)
-        return 0
+    # ---- losses -------------------------------------------------------------------------------------------------
 
-    def _raw_channel(self, link: str, direction: Direction, peer: Address | None) -> int:
-        """The channel of a link, direction and peer, declared on first use."""
-        channel = self._raw_channels.get((link, direction, peer))
-        if channel is None:
-            if len(self._raw_channels) >= MAX_RAW_CHANNELS and peer is not None:
-                return self._raw_channel(link, direction, None)
-            metadata = {"link": link, "direction": direction}
-            if peer is not None:
-                metadata |= {"peer_host": peer[0], "peer_port": str(peer[1])}
-            channel = self._container.add_channel(f"/mavlink/raw/{link}/{direction}", "mavlink", 0, metadata)
-            self._raw_channels[link, direction, peer] = channel
-        return channel
+    def _losses(self) -> dict[str, int]:
+        """Every counter of what is lost, by name."""
+        values = {"recorder.dropped_raw": self._dropped_raw + self._overflowed}
+        values["recorder.dropped_decoded"] = self._dropped_decoded
+        values["recorder.masked_keys"] = self._masked
+        for (link, direction), framer in self._framers.items():
+            if direction == "rx":
+                for (system, component), sender in framer.senders.items():
+                    values[f"{link}.{system}.{component}.sequence_gaps"] = sender.lost
+        with suppress(OSError, ValueError):  # the sockets are closed: what was told of them last holds
+            values |= self._more_losses()
+        return values
 
-    def _packet_channel(self, message_id: int, system: int, component: int, key: int) -> tuple[int, Transcoder] | None:
-        """The channel and transcoder of a sender's message, declared on first use; None if it is not decoded."""
-        encode = transcoder(message_id)
-        if encode is None:
-            return None  # not remembered: three bytes of message id are too many for a table
-        if len(self._packet_channels) >= MAX_DECODED_CHANNELS:
-            self._dropped_decoded += 1
-            return None
-        schema_id = self._schema(encode.schema_name, encode.descriptor_set)
-        channel = self._container.add_channel(f"/mavlink/{system}/{component}/{encode.name}", "protobuf", schema_id, {})
-        self._packet_channels[key] = (channel, encode)
-        return channel, encode
+    def _record_losses(self) -> None:
+        """A record for each counter that has changed."""
+        for name, total in self._losses().items():
+            if total != self._told_losses.get(name, 0):
+                self._told_losses[name] = total
+                self._message((*self._last, schema.TOPICS[schema.Loss], schema.Loss(name, total)))
 
-    def _schema(self, name: str, descriptor_set: bytes) -> int:
-        schema_id = self._schemas.get(name)
-        if schema_id is None:
-            schema_id = self._schemas[name] = self._container.add_schema(name, "protobuf", descriptor_set)
-        return schema_id
-
-    def _finish(self) -> None:
-        """Write the loss counters and everything a reader seeks by."""
+    def _table_of_losses(self) -> dict[str, str]:
         values = {"dropped_raw": str(self.counters.dropped_raw), "dropped_decoded": str(self._dropped_decoded)}
+        if self._masked:
+            values["masked_keys"] = str(self._masked)
         for (link, direction), framer in self._framers.items():
             at = f"{link}.{direction}"
             counters = framer.counters
@@ -374,11 +427,123 @@ class Recorder:
                 for (system, component), sender in framer.senders.items():
                     values[f"{at}.{system}.{component}.received"] = str(sender.received)
                     values[f"{at}.{system}.{component}.lost"] = str(sender.lost)
-        self._container.add_metadata("recorder", values)
+        return values
+
+    def _finish(self) -> None:
+        """Write the losses and everything a reader seeks by."""
+        self._record_losses()
+        self._container.add_metadata("recorder", self._table_of_losses())
         self._container.finish()
 
+    # ---- parts --------------------------------------------------------------------------------------------------
 
-def _check_times(log_time_ns: int, now_us: int, tick: int) -> None:
+    def _part_begins(self, now_ns: int) -> None:
+        seconds = self._rotation.seconds
+        self._part_ends_at = now_ns + _ns(seconds) if seconds is not None else 1 << 63
+
+    def _part_is_full(self, now_ns: int) -> bool:
+        size = self._rotation.size_bytes
+        full = (size is not None and self._container.size >= size) or now_ns >= self._part_ends_at
+        return full and self._parts.number < MOST_PARTS
+
+    def _rotate(self) -> None:
+        """End this part, begin the next."""
+        self._attempt(self._finish)
+        if self._gap is None:
+            self._parts.close()
+            self._begin("the part before was full")
+
+    def _begin(self, why: str) -> None:
+        """Begin the next part, if the disk takes it; otherwise there is a gap, or there goes on to be one."""
+        gap = self._gap
+        if gap is not None:
+            gap = Gap(gap.reason, gap.from_ns, self._last[0], self._dropped_raw + self._overflowed - gap.missing)
+        try:
+            self._container = self._parts.begin(why, gap)
+        except OSError as error:
+            if self._gap is None:
+                self._open_gap(_reason(error))
+            return
+        self._channels, self._gap = Channels(self._container), None
+        self._told_losses.clear()  # every part tells all of them
+        self._whole_to_ns = self._last[0]
+        self._part_begins(self._now_ns())
+        if gap is not None:
+            self._notices.append(f"recording goes on in {self._parts.paths[-1]}: {gap.missing} entries are missing")
+
+    def _abandon(self, error: OSError) -> None:
+        """The disk did not take what there was: end this part with what it has, and try another later."""
+        missing = self._dropped_raw + self._overflowed
+        for channel, count in self._container.abandon().items():
+            kind = self._channels.kinds[channel]
+            counts = self._counts[kind.family]
+            counts[kind.link] -= count
+            if kind.family == "decoded":
+                self._dropped_decoded += count
+            elif kind.family != "aside":  # losses are told anew
+                self._dropped_raw += count
+        self._parts.close()
+        self._open_gap(_reason(error), missing)
+
+    def _open_gap(self, reason: str, missing: int | None = None) -> None:
+        """From here on nothing is written; `missing`: how many entries were, before the first of this gap."""
+        before = self._dropped_raw + self._overflowed if missing is None else missing
+        self._gap = Gap(reason, self._whole_to_ns, missing=before)
+        self.failure = self.failure or f"writing failed: {reason}"
+        self._retry_at = self._now_ns() + _ns(RETRY_S)
+        self._notices.append(f"nothing is recorded: {reason}; a new part is tried every {RETRY_S:g} s")
+
+    def _break(self, error: Exception) -> None:
+        """A fault of ours: nothing is recorded any more, and `close` says so."""
+        self._dropped_raw += 1
+        self._abandon(OSError(0, f"{type(error).__name__}: {error}"))
+        self._broken = True
+
+    def _retry(self) -> None:
+        """A new part, if it is time for one and there is room."""
+        now_ns = self._now_ns()
+        if self._broken or now_ns < self._retry_at or self._parts.number >= MOST_PARTS:
+            return
+        self._retry_at = now_ns + _ns(RETRY_S)
+        if self._threaded:
+            free, room = self._free()
+            if free < 2 * room.stop:
+                return
+        self._begin("there is room again")
+
+    def _free(self) -> tuple[int, Room]:
+        try:
+            free, size = self._parts.disk()
+        except OSError:
+            return 1 << 62, self._room  # it cannot be told; writing will
+        return free, self._room.of_disk(size)
+
+    def _watch_room(self) -> None:
+        """Tell of a disk that fills up, save on decoding, end the part while there is room to end it."""
+        free, room = self._free()
+        left = f"{free / 1e6:.1f} MB are left on the disk of {self.path.parent}"
+        if free < room.stop:
+            self._attempt(self._finish)
+            if self._gap is None:
+                self._parts.close()
+                self._open_gap(left)
+            return
+        if free < room.warn and not self._warned:
+            self._notices.append(left)
+        self._warned = free < room.warn
+        if (free >= room.raw_only) != self._decodes:
+            self._decodes = not self._decodes
+            self._notices.append(f"{left}: packets are {'decoded again' if self._decodes else 'kept raw only'}")
+
+
+def _ns(seconds: float) -> int:
+    return round(seconds * 1e9)
+
+
+def _reason(error: OSError) -> str:
+    return str(error.strerror or error)
+
+
+def _negative(log_time_ns: int, now_us: int, tick: int) -> None:
     """MCAP's times and sequence are unsigned; a negative one would only be found by the writer thread."""
-    if log_time_ns < 0 or now_us < 0 or tick < 0:
-        raise ValueError(f"log_time_ns {log_time_ns}, now_us {now_us}, tick {tick}: expected none below zero")
+    raise ValueError(f"log_time_ns {log_time_ns}, now_us {now_us}, tick {tick}: expected none below zero")

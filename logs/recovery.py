@@ -24,10 +24,9 @@ from mcap.records import Channel, Header, Metadata, Schema
 from logs.container import LIBRARY, MAGIC, PROFILE, Summary, bare_tail, bytes_of, chunk_of, indexes_of
 from logs.errors import RecordingError
 from logs.lock import lock
+from logs.reader import RECOVERY
 from logs.scan import Piece, Scan, chunk_stated, message_at, read_attachment, read_metadata, records_of, scan
 
-RECOVERY = "recovery"
-"""Name of the metadata that says what was done."""
 SUFFIX = ".recovering"
 _BLOCK = 1024 * 1024
 

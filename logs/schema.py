@@ -155,7 +155,15 @@ class ReplanReady:
     cpu_ms: float = 0.0
 
 
-Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference | Truth | ReplanWanted | ReplanReady
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """A counter of what is lost, when it has changed: `autopilot.kernel_drops`, `autopilot.1.1.sequence_gaps` ..."""
+
+    of: str
+    total: int  # since the recording began
+
+
+Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference | Truth | ReplanWanted | ReplanReady | Loss
 RecordT = TypeVar("RecordT", bound=Record)
 
 RECORDS: tuple[type[Record], ...] = (
@@ -168,9 +176,12 @@ RECORDS: tuple[type[Record], ...] = (
     Truth,
     ReplanWanted,
     ReplanReady,
+    Loss,
 )
 INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand, ReplanReady)
 OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference, ReplanWanted)
+ASIDE: tuple[type[Record], ...] = (Loss,)
+"""Records of the recorder itself, which did not cross the seam."""
 
 TOPICS: dict[type[Record], str] = {
     Tick: "/companion/tick",
@@ -182,6 +193,7 @@ TOPICS: dict[type[Record], str] = {
     Truth: "/vehicle/truth",
     ReplanWanted: "/companion/replan_wanted",
     ReplanReady: "/companion/replan_ready",
+    Loss: "/companion/losses",
 }
 """Where each record is kept, unless a driver says otherwise."""
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from logs import schema
 from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
+from logs.secrets import masked
 from wire.datagram import Datagram
 
 Entry = Datagram | schema.Record
@@ -39,7 +40,7 @@ class RecordedTick:
 def ticks(recording: Recording) -> Iterator[RecordedTick]:
     """The ticks of a recording, in order.
 
-    Of a recording cut short, the last tick is left out unless everything that belongs to it is there.
+    Of a recording cut short, recovered or not, the last tick is left out unless everything that belongs to it is there.
 
     Raises
     ------
@@ -72,7 +73,7 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
         try:
             last = _checked(recording, row)
         except RecordingError:
-            if recording.complete:
+            if recording.complete and not recording.recovered:
                 raise
         else:
             yield last
@@ -81,19 +82,19 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
 def inputs_digest(inputs: Iterable[Entry]) -> int:
     """CRC-32 over a tick's inputs in order: link and bytes of a datagram, schema name and bytes of a record.
 
-    With it in every tick, a changed input is found even where it changes no output.
+    With it in every tick, a changed input is found even where it changes no output. Keys count as they are recorded.
     """
     crc = 0
     for entry in inputs:
         if isinstance(entry, Datagram):
-            crc = zlib.crc32(entry.data, zlib.crc32(entry.link.encode(), crc))
+            crc = zlib.crc32(masked(entry.data), zlib.crc32(entry.link.encode(), crc))
         else:
             crc = zlib.crc32(schema.encode(entry), zlib.crc32(schema.schema_name(type(entry)).encode(), crc))
     return crc
 
 
 def entry_of(message: RecordedMessage) -> Entry | None:
-    """The datagram or record in a message; None for a decoded copy of a packet.
+    """The datagram or record in a message; None for a decoded copy of a packet, and for what did not cross the seam.
 
     Raises
     ------
@@ -103,7 +104,7 @@ def entry_of(message: RecordedMessage) -> Entry | None:
     if channel.direction is not None:
         return Datagram(channel.link, message.data, channel.peer)
     kind = schema.kind_of(channel.schema)
-    return None if kind is None else schema.decode(kind, message.data)
+    return None if kind is None or kind in schema.ASIDE else schema.decode(kind, message.data)
 
 
 def is_input(message: RecordedMessage) -> bool:

@@ -50,6 +50,7 @@ def test_every_record_comes_back_as_it_was() -> None:
             map_crc32=0xDEADBEEF,
             movers=(0.1,) * 9 + (math.inf,),
         ),
+        schema.Loss("autopilot.kernel_drops", 12),
         schema.ReplanReady(request_id=7, kind="keep", certified=True, clearance=math.inf, backup_knots=(0.0, 1.0)),
     ]
     assert {type(record) for record in records} == set(schema.RECORDS)
@@ -81,6 +82,6 @@ def test_bytes_that_are_no_record_are_a_value_error() -> None:
         schema.decode(schema.Note, b"\x0a\xff\xff")
 
 
-def test_inputs_outputs_the_tick_and_truth_are_all_there_is() -> None:
-    assert set(schema.INPUTS) | set(schema.OUTPUTS) | {schema.Tick, schema.Truth} == set(schema.RECORDS)
+def test_inputs_outputs_the_tick_truth_and_what_stands_aside_are_all_there_is() -> None:
+    assert set(schema.INPUTS) | set(schema.OUTPUTS) | {schema.Tick, schema.Truth, *schema.ASIDE} == set(schema.RECORDS)
     assert len(set(schema.TOPICS.values())) == len(schema.RECORDS) == len(schema.TOPICS)
