@@ -45,6 +45,7 @@ export type Aligned = [number[], ...(number | null | undefined)[][]];
 
 /** Several series on one axis of times, as uPlot wants them; undefined where a series has no sample. */
 export function align(series: Points[]): Aligned {
+  if (!series.length) return [[]] as unknown as Aligned;
   if (series.length === 1) return [series[0].t, series[0].v];
   const same = series.every((s) => s.t.length === series[0].t.length && s.t.every((value, k) => value === series[0].t[k]));
   if (same) return [series[0].t, ...series.map((s) => s.v)];

@@ -4,7 +4,7 @@ import type { HistogramJson } from "./data";
 import { h, svg } from "./dom";
 import { number } from "./format";
 
-const HEIGHT = 176, LEFT = 44, RIGHT = 34, TOP = 18, BOTTOM = 24;
+const HEIGHT = 176, LEFT = 44, RIGHT = 46, TOP = 18, BOTTOM = 24;
 
 export class Histogram {
   readonly element: HTMLElement;

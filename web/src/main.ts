@@ -57,7 +57,6 @@ class Page {
         h("button.round", { type: "button", title: "dark or light (t)", "aria-label": "dark or light", onclick: toggleTheme }, icon("theme")),
         h("button.round", { type: "button", title: "keys (?)", "aria-label": "help", onclick: help.open }, "?")),
       h("main",
-        this.verdict.element,
         h("div.workspace",
           h("aside.stage", h("section.stage-card", { id: "scene", "aria-label": "scene" }, this.scene.element, this.scene.below, transport.element, live?.element ?? null)),
           this.column)));
@@ -86,6 +85,7 @@ class Page {
       plots.forEach((p) => this.plots.add(p));
       this.histograms.push(...histograms);
     }
+    this.column.prepend(this.verdict.element);
     const extra = data.tables.filter((t) => t.section === "verdict").map((t) => this.table(t));
     const more = data.plots.filter((p) => p.section === "verdict").map((p) => new TimePlot(p, this.state, () => this.timeline.events));
     this.verdict.element.after(...(extra.length || more.length ? [h("section.section.verdict-more", ...extra, h("div.plots", more.map((p) => p.element)))] : []));
@@ -101,7 +101,7 @@ class Page {
         link.classList.toggle("now", on);
       }
     }, { rootMargin: "-70px 0px -55% 0px" });
-    for (const section of [this.verdict.element, ...this.column.children]) watch.observe(section);
+    for (const section of this.column.children) watch.observe(section);
   }
 
   /** Another page takes its place. */
@@ -152,9 +152,9 @@ class Page {
   }
 }
 
-/** A report opens where there is something to see: at the least clearance, or a third into the flight. */
+/** A report opens where there is something to see: at the least clearance, or half-way. */
 function startOf(data: DataJson, low: number): number {
-  return data.scene.least?.t ?? low + (data.header.duration_s || 0) / 3;
+  return data.scene.least?.t ?? low + 0.45 * (data.header.duration_s || 0);
 }
 
 // ---- theme

@@ -20,6 +20,7 @@ export class TimePlot {
   private plot: uPlot | null = null;
   private readonly holder = h("div.plot-area", { style: { height: `${HEIGHT}px` } });
   private readonly legend = h("div.legend");
+  private readonly empty = h("p.no-samples", { hidden: true }, "no samples");
   private cursorLine = h("div.cursor-line");
   private dirty = true;
   visible = false;
@@ -27,7 +28,7 @@ export class TimePlot {
   constructor(readonly json: PlotJson, private readonly state: State, private readonly events: () => EventJson[]) {
     this.element = h("figure.plot", { id: `plot-${json.id}`, "data-plot": json.id },
       h("figcaption", h("span.plot-title", json.title), json.unit ? h("span.unit", json.unit) : null, this.legend),
-      this.holder,
+      h("div.plot-frame", this.holder, this.empty),
       json.note ? h("p.note", json.note) : null);
     json.series.forEach((series, k) => this.legend.append(this.chip(series.label, k)));
   }
@@ -103,13 +104,13 @@ export class TimePlot {
       if (this.plot.width !== width) this.plot.setSize({ width, height: HEIGHT });
       this.plot.setData(data, true);
     }
+    this.empty.hidden = this.unpacked().some((line) => line.t.length > 0);
     this.drawn = true;
     this.element.dataset.drawn = "true";
-    this.moveCursor();
   }
 
   moveCursor(): void {
-    if (!this.plot || !this.visible) return;
+    if (!this.plot) return;
     const x = this.plot.valToPos(this.state.cursor, "x");
     const inside = x >= 0 && x <= this.plot.over.clientWidth;
     this.cursorLine.style.transform = `translateX(${x}px)`;
@@ -147,7 +148,7 @@ export class TimePlot {
           points: dots ? { show: true, size: 4, fill: stroke, stroke, width: 0 } : { show: false },
         } as uPlot.Series;
       })],
-      hooks: { drawAxes: [(u) => this.drawMarks(u)], draw: [(u) => this.drawBounds(u)] },
+      hooks: { drawAxes: [(u) => this.drawMarks(u)], draw: [(u) => { this.drawBounds(u); this.moveCursor(); }] },
     }, data, this.holder);
     this.cursorLine = h("div.cursor-line");
     this.plot.over.append(this.cursorLine);
@@ -218,8 +219,13 @@ function valueAt(line: Line, t: number): number {
   return i < 0 || line.t.at(i + 1) - t < t - line.t.at(i) ? line.v.at(i + 1) : line.v.at(i);
 }
 
+/** Decimal places that a multiple of the step needs: 1 for 2.5. */
 function places(step: number): number {
-  return Math.max(0, Math.min(8, Math.ceil(-Math.log10(step) - 1e-9)));
+  for (let count = 0; count < 8; count++) {
+    const scaled = step * 10 ** count;
+    if (Math.abs(scaled - Math.round(scaled)) < 1e-6 * scaled) return count;
+  }
+  return 8;
 }
 
 export function tickLabel(value: number, step: number): string {
@@ -257,7 +263,7 @@ export class Plots {
       }
     });
     state.on("range", () => this.redraw());
-    state.on("cursor", () => this.all.forEach((p) => p.moveCursor()));
+    state.on("cursor", () => this.all.forEach((p) => p.visible && p.moveCursor()));
     state.on("data", () => this.all.forEach((p) => p.update()));
     state.on("theme", () => this.all.forEach((p) => { p.restyle(); p.update(); }));
     addEventListener("beforeprint", () => this.all.forEach((p) => p.update(true)));

@@ -1,7 +1,7 @@
 /** The flight in space: what is drawn when, the cameras, and what a pointer does in it. */
 
 import {
-  AmbientLight, DirectionalLight, Euler, Group, HemisphereLight, MOUSE, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D, OrthographicCamera,
+  AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, Euler, Group, HemisphereLight, Line, LineBasicMaterial, MOUSE, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D, OrthographicCamera,
   PerspectiveCamera, Plane, Raycaster, RingGeometry, Scene as Stage, SphereGeometry, Vector2, Vector3, WebGLRenderer, Color, SRGBColorSpace, DoubleSide,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -17,13 +17,14 @@ import type { State } from "./state";
 
 const MOST_VERTICES = 6000;
 const CLICK_PX = 5;
+const TRAIL = 24, TRAIL_S = 3;
 const VIEWS = ["3D", "top", "side"] as const;
 export type View = (typeof VIEWS)[number];
 type ColourBy = "error" | "speed" | "height" | "time";
 
 interface Layer { name: string; label: string; tone: string; shown: boolean; group: Group }
 interface Tag { element: HTMLElement; at: Vector3; layer?: string }
-interface Moving { json: MoverJson; track: Track; object: Object3D; tag: Tag }
+interface Moving { json: MoverJson; track: Track; object: Object3D; trail: Line; tag: Tag }
 interface Way { t: number; kind: string; points: Float64Array | Float32Array }
 
 export class FlightScene {
@@ -44,7 +45,7 @@ export class FlightScene {
   private readonly overlay = h("div.scene-tags", { "aria-hidden": "true" });
   private readonly compass: SVGElement;
   private readonly needle: SVGElement;
-  private readonly legend = h("div.colour-legend");
+  private readonly ends = h("span.legend-ends");
   private readonly layerBar = h("div.layers");
   private readonly readout = h("div.readouts");
   private readonly layers = new Map<string, Layer>();
@@ -63,10 +64,12 @@ export class FlightScene {
   private floor: Ground | null = null;
   private centre = new Vector3();
   private reach = 10;
+  private box: [Vector3, Vector3] = [new Vector3(), new Vector3()];
   private colourBy: ColourBy = "error";
   private json: SceneJson;
   private waiting = false;
   private side = 0;
+  private sized = false;
   private pose: Record<string, number> | null = null;
   private lastRebuild = 0;
 
@@ -82,7 +85,7 @@ export class FlightScene {
     }
     this.renderer = renderer;
     this.element = h("div.scene", { "data-scene": renderer ? "webgl" : "none" }, renderer
-      ? [this.canvas, this.overlay, this.toolbar(), this.compass as unknown as HTMLElement, this.legend]
+      ? [this.canvas, this.overlay, this.toolbar(), this.compass as unknown as HTMLElement, this.colourLegend()]
       : h("p.no-webgl", "This browser draws no WebGL, so there is no 3D scene. Everything else is here."));
     if (renderer) this.begin(renderer);
     this.load(json);
@@ -116,7 +119,7 @@ export class FlightScene {
     this.truth = new Track(json.truth);
     this.reference = new Track(json.reference);
     this.ways = (json.plans ?? []).map(way);
-    this.moving = (json.movers ?? []).map((m) => ({ json: m, track: new Track(m), object: new Object3D(), tag: null as unknown as Tag }));
+    this.moving = (json.movers ?? []).map(moving);
     this.rebuild();
   }
 
@@ -128,7 +131,7 @@ export class FlightScene {
     if (more.truth) this.truth = new Track(more.truth); else this.truth = truth;
     if (more.reference) this.reference = new Track(more.reference); else this.reference = reference;
     if (more.plans) this.ways = more.plans.map(way);
-    if (more.movers) this.moving = more.movers.map((m) => ({ json: m, track: new Track(m), object: new Object3D(), tag: null as unknown as Tag }));
+    if (more.movers) this.moving = more.movers.map(moving);
     this.rebuild();
   }
 
@@ -145,7 +148,7 @@ export class FlightScene {
     for (const mover of more.movers ?? []) {
       const known = this.moving.find((m) => m.json.id === mover.id);
       if (!known) {
-        this.moving.push({ json: mover, track: new Track(mover), object: new Object3D(), tag: null as unknown as Tag });
+        this.moving.push(moving(mover));
         fresh = true;
       } else for (const name of ["t", "n", "e", "u"] as const) known.track[name].push(decode(mover[name]).view());
     }
@@ -212,6 +215,7 @@ export class FlightScene {
     this.floor = ground([low[0], low[1]], [high[0], high[1]], floor);
     low[2] = Math.min(low[2], floor);
     this.centre = toThree([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2]);
+    this.box = [toThree(low), toThree(high)];
     this.reach = Math.max(4, Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]));
   }
 
@@ -219,11 +223,12 @@ export class FlightScene {
     const floor = this.floor!;
     this.layer("ground", "", "").add(floor.object);
     const label = (n: number, e: number, text: string, kind = "tick") => this.tag(text, toThree([n, e, floor.level]), kind);
+    const off = 0.035 * this.reach;
     const every = floor.step * Math.max(1, Math.ceil((floor.high[0] - floor.low[0]) / floor.step / 6));
-    for (let n = floor.low[0]; n <= floor.high[0] + 1e-6; n += every) label(n, floor.low[1] - floor.step * 0.45, number(round(n)));
-    for (let e = floor.low[1]; e <= floor.high[1] + 1e-6; e += every) label(floor.low[0] - floor.step * 0.45, e, number(round(e)));
-    label((floor.low[0] + floor.high[0]) / 2, floor.low[1] - floor.step * 1.2, "north [m]", "axis");
-    label(floor.low[0] - floor.step * 1.2, (floor.low[1] + floor.high[1]) / 2, "east [m]", "axis");
+    for (let n = floor.low[0]; n <= floor.high[0] + 1e-6; n += every) label(n, floor.low[1] - off, number(round(n)));
+    for (let e = floor.low[1]; e <= floor.high[1] + 1e-6; e += every) label(floor.low[0] - off, e, number(round(e)));
+    label((floor.low[0] + floor.high[0]) / 2, floor.low[1] - 3 * off, "north [m]", "axis");
+    label(floor.low[0] - 2.6 * off, (floor.low[1] + floor.high[1]) / 2, "east [m]", "axis");
 
     const { obstacles, bounds, fence, least } = this.json;
     const standing = obstacles.filter((o) => o.kind !== "cells"), mapped = obstacles.filter((o) => o.kind === "cells");
@@ -294,10 +299,7 @@ export class FlightScene {
       }));
     }
     this.drawn.vertices = this.kept.length;
-    this.legend.replaceChildren(
-      h("span.legend-name", this.colourBy === "error" ? "tracking error" : this.colourBy),
-      h("span.ramp", { style: { "background-image": RAMP_CSS } }),
-      h("span.legend-ends", h("span", "0"), h("span", `${this.colourBy === "time" ? clock(high, 0) : number(high)}${unit}`)));
+    this.ends.replaceChildren(h("span", "0"), h("span", `${this.colourBy === "time" ? clock(high, 0) : number(high)}${unit}`));
     this.invalidate();
   }
 
@@ -346,8 +348,8 @@ export class FlightScene {
       mover.object = object;
       mover.tag = this.tag(this.moving.length > 12 ? "" : mover.json.id, object.position, "mover", "movers");
       group.add(object);
-      const kept = thin(mover.track, this.reach);
-      if (kept.length > 1) group.add(fat(flat3(mover.track, kept), { color: new Color(colour("mover")).getHex(), linewidth: 1, transparent: true, opacity: 0.35 }));
+      mover.trail = trail();
+      group.add(mover.trail);
     }
     this.drawn.movers = this.moving.length;
     this.fillLayerBar();
@@ -395,7 +397,15 @@ export class FlightScene {
       const { track } = mover, last = track.length - 1;
       const place = track.at(t);
       mover.object.visible = !!place && t >= track.t.at(0) - 0.5 && t <= track.t.at(last) + 1.5;
-      if (place) mover.object.position.copy(toThree(place));
+      mover.trail.visible = mover.object.visible;
+      if (!place || !mover.object.visible) continue;
+      mover.object.position.copy(toThree(place));
+      const points = mover.trail.geometry.getAttribute("position") as BufferAttribute;
+      for (let k = 0; k < TRAIL; k++) {
+        const [n, e, u] = track.at(Math.max(track.t.at(0), t - (TRAIL_S * k) / (TRAIL - 1)))!;
+        points.setXYZ(k, e, u, -n);
+      }
+      points.needsUpdate = true;
     }
     this.showWays(t);
     this.fillReadout(t, at);
@@ -475,6 +485,8 @@ export class FlightScene {
     this.renderer.setSize(width, height, false);
     this.perspective.aspect = width / height;
     this.perspective.updateProjectionMatrix();
+    if (!this.sized) this.resetCamera();
+    this.sized = true;
     this.frameFlat();
     this.invalidate();
   }
@@ -500,22 +512,52 @@ export class FlightScene {
     if (!this.controls) return;
     this.useCamera(this.view === "3D" ? this.perspective : this.flat);
     const { centre, reach, controls } = this;
-    const aspect = (this.element.clientWidth || 16) / (this.element.clientHeight || 10);
     if (this.view === "3D") {
-      const far = reach * (aspect > 1 ? 1.12 : 1.12 / Math.max(0.5, aspect) ** 0.75);
-      this.perspective.position.copy(centre).add(new Vector3(-0.42, 0.72, 0.86).normalize().multiplyScalar(far));
       this.perspective.near = reach / 500;
       this.perspective.far = reach * 60;
-      this.perspective.updateProjectionMatrix();
+      controls.target.copy(this.fit(new Vector3(-0.42, 0.66, 0.9).normalize()));
     } else {
       const away = this.view === "top" ? new Vector3(0, 1, 1e-4) : this.side ? new Vector3(1, 0.0001, 0) : new Vector3(0, 0.0001, 1);
       this.flat.position.copy(centre).addScaledVector(away, reach * 3);
       this.flat.zoom = 1;
       this.frameFlat();
+      controls.target.copy(centre);
     }
-    controls.target.copy(centre);
     controls.update();
     this.invalidate();
+  }
+
+  /** Put the perspective camera so far off in a direction that the whole box is seen, and in the middle; gives the target. */
+  private fit(direction: Vector3): Vector3 {
+    const { perspective: camera, box, reach } = this;
+    const target = this.centre.clone();
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new Vector3(box[k & 1].x, box[(k >> 1) & 1].y, box[(k >> 2) & 1].z));
+    const spread = (far: number) => {
+      camera.position.copy(target).addScaledVector(direction, far);
+      camera.lookAt(target);
+      camera.updateMatrixWorld();
+      camera.updateProjectionMatrix();
+      const seen = corners.map((c) => c.clone().project(camera));
+      const [x, y] = [seen.map((p) => p.x), seen.map((p) => p.y)];
+      return { low: [Math.min(...x), Math.min(...y)], high: [Math.max(...x), Math.max(...y)], behind: seen.some((p) => p.z > 1 || p.z < -1) };
+    };
+    let far = 2 * reach;
+    for (let turn = 0; turn < 4; turn++) {
+      let [near, most] = [0.3 * reach, 8 * reach];
+      for (let k = 0; k < 24; k++) {
+        far = (near + most) / 2;
+        const { low, high, behind } = spread(far);
+        if (behind || high[0] - low[0] > 1.7 || high[1] - low[1] > 1.62) near = far;
+        else most = far;
+      }
+      far = most;
+      const { low, high } = spread(far);
+      const height = far * Math.tan((camera.fov * Math.PI) / 360);
+      const right = new Vector3().setFromMatrixColumn(camera.matrix, 0), up = new Vector3().setFromMatrixColumn(camera.matrix, 1);
+      target.addScaledVector(right, ((low[0] + high[0]) / 2) * height * camera.aspect).addScaledVector(up, ((low[1] + high[1]) / 2) * height);
+    }
+    spread(far);
+    return target;
   }
 
   zoom(factor: number): void {
@@ -628,6 +670,15 @@ export class FlightScene {
   // ---- controls on top of it
 
   private toolbar(): HTMLElement {
+    return h("div.scene-toolbar",
+      h("div.segments", { role: "group", "aria-label": "view" }, VIEWS.map((view, k) => h("button", {
+        type: "button", "data-view": view, "aria-pressed": String(view === this.view), title: `${view} view (${k + 1})`, onclick: () => this.setView(view),
+      }, view))),
+      h("button.pill", { type: "button", "data-follow": "", "aria-pressed": "false", title: "follow the vehicle (f)", onclick: () => this.setFollowing(!this.following) }, "follow"));
+  }
+
+  /** What the path's colour means, and the choice of it. */
+  private colourLegend(): HTMLElement {
     const by = h<HTMLSelectElement>("select", {
       "aria-label": "colour of the path", title: "colour of the path",
       onchange: () => {
@@ -635,12 +686,7 @@ export class FlightScene {
         this.rebuildPath();
       },
     }, (["error", "speed", "height", "time"] as const).map((name) => h("option", { value: name }, name === "error" ? "tracking error" : name)));
-    return h("div.scene-toolbar",
-      h("div.segments", { role: "group", "aria-label": "view" }, VIEWS.map((view, k) => h("button", {
-        type: "button", "data-view": view, "aria-pressed": String(view === this.view), title: `${view} view (${k + 1})`, onclick: () => this.setView(view),
-      }, view))),
-      h("button.pill", { type: "button", "data-follow": "", "aria-pressed": "false", title: "follow the vehicle (f)", onclick: () => this.setFollowing(!this.following) }, "follow"),
-      h("label.colour-by", h("span.visually-hidden", "colour by"), by));
+    return h("div.colour-legend", by, h("span.ramp", { style: { "background-image": RAMP_CSS } }), this.ends);
   }
 
   private fillLayerBar(): void {
@@ -711,6 +757,21 @@ export class FlightScene {
       if (inside) element.style.transform = `translate(${((p.x + 1) / 2) * width}px, ${((1 - p.y) / 2) * height}px) translate(-50%, -50%)`;
     }
   }
+}
+
+function moving(json: MoverJson): Moving {
+  return { json, track: new Track(json), object: new Object3D(), trail: trail(), tag: null as unknown as Tag };
+}
+
+/** Where something was in the last seconds, paler with age. */
+function trail(): Line {
+  const geometry = new BufferGeometry(), tint = new Color(colour("mover"));
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * TRAIL), 3));
+  geometry.setAttribute("color", new BufferAttribute(Float32Array.from({ length: 4 * TRAIL }, (_, i) =>
+    i % 4 < 3 ? [tint.r, tint.g, tint.b][i % 4] : 0.8 * (1 - Math.floor(i / 4) / TRAIL)), 4));
+  const line = new Line(geometry, new LineBasicMaterial({ vertexColors: true, transparent: true }));
+  line.frustumCulled = false;
+  return line;
 }
 
 function way(json: PlanJson): Way {

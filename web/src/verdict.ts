@@ -42,7 +42,7 @@ export class Verdict {
         h("span.stamp", word),
         h("div", h("h1", header.title), h("p.summary", summary.join(" · "), header.start_utc ? h("span.when", when(header.start_utc)) : null),
           header.failure ? h("p.failure", header.failure) : null)),
-      h("div.verdict-grid", this.checks(), this.facts(), this.loss()));
+      h("div.verdict-grid", h("div.verdict-side", this.checks(), this.loss()), h("div.verdict-side", this.facts())));
   }
 
   private checks(): HTMLElement | null {
@@ -71,9 +71,9 @@ export class Verdict {
   }
 }
 
-/** Names of fields as people write them. */
+/** Names of fields as people write them: duration_max_s is "duration max [s]". */
 function words(name: string): string {
-  return name.replaceAll("_", " ");
+  return name.replace(/_(m|s|ms|hz|deg|rad|m_s)$/, (_, unit: string) => ` [${{ hz: "Hz", deg: "°", m_s: "m/s" }[unit] ?? unit}]`).replaceAll("_", " ");
 }
 
 function when(utc: string): string {

@@ -1,0 +1,308 @@
+"""A report in a browser: everything drawn, one cursor for all, keys and mouse as promised, readable on a phone."""
+
+import base64
+import math
+
+import numpy as np
+import pytest
+
+from logs.report import contract, write_page
+from tests.pages.browser import Browser, Page
+
+STATE = "companionPage.page.state"
+
+
+COPY = """
+(() => {
+  const source = document.querySelector('SELECTOR');
+  const copy = document.createElement('canvas');
+  [copy.width, copy.height] = [source.width, source.height];
+  const ctx = copy.getContext('2d');
+  ctx.drawImage(source, 0, 0);
+  const { data } = ctx.getImageData(0, 0, copy.width, copy.height);
+  return [copy.width, copy.height, btoa(Array.from(data, (b) => String.fromCharCode(b)).join(''))];
+})()"""
+
+
+def picture_of(page: Page, selector: str) -> np.ndarray:
+    """The pixels of a canvas in the page (rows, columns, RGBA)."""
+    width, height, data = page.js(COPY.replace("SELECTOR", selector))
+    return np.frombuffer(base64.b64decode(data), np.uint8).reshape(height, width, 4)
+
+
+def plot_middle(page: Page, name: str) -> tuple[float, float, float, float]:
+    """Left, top, width, height of a plot's area, scrolled into sight."""
+    page.middle(f"#plot-{name}")
+    page.settle()
+    page.until(f"!!document.querySelector('#plot-{name} .u-over')")
+    return page.box(f"#plot-{name} .u-over")
+
+
+def near(pixels: np.ndarray, rgb: tuple[int, int, int], within: int = 40) -> int:
+    """How many opaque pixels are of about that colour."""
+    away = np.abs(pixels[..., :3].astype(int) - rgb).max(axis=-1)
+    return int(((away <= within) & (pixels[..., 3] > 128)).sum())
+
+
+def test_the_head_tells_verdict_checks_facts_and_losses(opened, flown):
+    text = opened.js("document.querySelector('#verdict').innerText")
+    for words in (
+        "PASSED",
+        "L-shaped wall",
+        "4 of 4 checks held",
+        "nothing lost",
+        "tracking error p95 [m]",
+        "≤ 0.35",
+        "b14cd39",
+    ):
+        assert words in text
+    assert opened.js("document.title") == "L-shaped wall · passed"
+    assert opened.js("document.querySelectorAll('.checks tbody tr').length") == len(flown["header"]["checks"])
+
+
+def test_the_scene_shows_path_obstacles_and_vehicle(opened):
+    drawn = opened.js("companionPage.page.scene.drawn")
+    assert drawn["vertices"] > 100
+    assert drawn["obstacles"] == 2
+    pixels = picture_of(opened, ".scene-canvas")
+    assert (pixels[..., 3] > 0).mean() > 0.02
+    colours = [near(pixels, rgb) for rgb in ((22, 168, 178), (110, 190, 80))]  # teal and green of the ramp
+    assert sum(colours) > 150
+    assert near(pixels, (140, 150, 168), 36) > 1500  # the wall
+
+
+def test_every_plot_and_histogram_is_drawn_once_it_is_seen(opened, flown):
+    for plot in flown["plots"]:
+        plot_middle(opened, plot["id"])
+        opened.until(f"document.querySelector('#plot-{plot['id']}').dataset.drawn")
+        pixels = picture_of(opened, f"#plot-{plot['id']} canvas")
+        if any(s["t"] for s in plot["series"]):
+            assert near(pixels, (37, 99, 235), 60) + near(pixels, (224, 108, 0), 60) > 40, plot["id"]
+    for histogram in flown["histograms"]:
+        heights = opened.js(
+            f"[...document.querySelectorAll('#plot-{histogram['id']} .bar')].map((b) => b.height.baseVal.value)"
+        )
+        counts = np.array(histogram["counts"])
+        assert len(heights) == len(counts)
+        assert np.argmax(heights) == np.argmax(counts)
+
+
+def test_one_cursor_moves_vehicle_plots_and_timeline_together(opened):
+    left, top, width, height = plot_middle(opened, "speed")
+    opened.mouse("mouseMoved", left + width / 2, top + height / 2)
+    opened.settle()
+    t = opened.js(f"{STATE}.cursor")
+    assert t == pytest.approx(opened.js(f"{STATE}.full[1]") / 2, abs=0.2)
+    north, _, up = opened.js(f"companionPage.page.scene.path.at({t})")
+    at = opened.js("companionPage.page.scene.craft.position.toArray()")
+    assert at[1] == pytest.approx(up, abs=1e-6)
+    assert at[2] == pytest.approx(-north, abs=1e-6)
+    for other in ("altitude", "speed"):
+        assert opened.js(
+            f"document.querySelector('#plot-{other} .cursor-line').getBoundingClientRect().x"
+        ) == pytest.approx(left + width / 2, abs=1.5)
+    assert opened.js("document.querySelector('.event.now .text').textContent") == "step 2: goto"
+    shown = float(opened.js("document.querySelector('.readout-item .value').textContent"))
+    assert shown == pytest.approx(north, abs=0.006)
+
+
+def test_a_drag_zooms_every_time_axis_and_a_double_click_shows_all(opened):
+    left, top, width, height = plot_middle(opened, "altitude")
+    full = opened.js(f"{STATE}.full")
+    opened.drag((left + 0.25 * width, top + height / 2), (left + 0.5 * width, top + height / 2))
+    low, high = opened.js(f"{STATE}.range")
+    assert low == pytest.approx(0.25 * full[1], abs=0.1)
+    assert high == pytest.approx(0.5 * full[1], abs=0.1)
+    for name in ("altitude", "error"):
+        plot_middle(opened, name)
+        scale = opened.js(f"companionPage.page.plots.find('{name}').plot.scales.x")
+        assert [scale["min"], scale["max"]] == pytest.approx([low, high])
+    left, top, width, height = plot_middle(opened, "error")
+    opened.click(left + width / 2, top + height / 2, count=2)
+    assert opened.js(f"{STATE}.range") == full
+
+
+def test_keys_move_the_cursor_zoom_play_and_help(opened):
+    opened.js(f"{STATE}.setCursor(10)")
+    opened.press("ArrowRight", 39)
+    step = opened.js(f"{STATE}.cursor") - 10
+    assert step > 0
+    opened.press("ArrowLeft", 37)
+    opened.press("ArrowLeft", 37, shift=True)
+    assert opened.js(f"{STATE}.cursor") == pytest.approx(10 - 10 * step, abs=1e-6)
+    span = opened.js(f"{STATE}.range[1] - {STATE}.range[0]")
+    opened.press("+")
+    assert opened.js(f"{STATE}.range[1] - {STATE}.range[0]") == pytest.approx(0.75 * span)
+    opened.press("0")
+    assert opened.js(f"{STATE}.range") == opened.js(f"{STATE}.full")
+    opened.press("?")
+    assert "play or pause" in opened.js("document.querySelector('dialog.help[open]').innerText")
+    opened.press("?")
+    assert not opened.js("document.querySelector('dialog[open]')")
+    opened.press(" ")
+    before = opened.js(f"{STATE}.cursor")
+    opened.until(f"{STATE}.cursor > {before} + 0.2")
+    opened.press(" ")
+    assert not opened.js(f"{STATE}.playing")
+
+
+def test_playing_at_four_speeds_ends_at_the_end(opened):
+    opened.js(f"{STATE}.setSpeed(10); {STATE}.setCursor({STATE}.full[1] - 2); {STATE}.setPlaying(true)")
+    opened.until(f"!{STATE}.playing", timeout=10)
+    assert opened.js(f"{STATE}.cursor") == opened.js(f"{STATE}.full[1]")
+
+
+def test_the_scene_turns_zooms_and_has_a_top_and_a_side_view(opened):
+    camera = "companionPage.page.scene.controls.object.position.toArray()"
+    x, y = opened.middle(".scene-canvas")
+    before = opened.js(camera)
+    opened.drag((x, y), (x + 120, y + 30))
+    turned = opened.js(camera)
+    assert math.dist(before, turned) > 1
+    opened.mouse("mouseWheel", x, y, deltaX=0, deltaY=-300)
+    opened.settle()
+    assert math.dist(opened.js(camera), turned) > 0.3
+    opened.press("2")
+    at, target = opened.js(camera), opened.js("companionPage.page.scene.controls.target.toArray()")
+    assert at[1] - target[1] > 10 * math.hypot(at[0] - target[0], at[2] - target[2])
+    opened.press("3")
+    at = opened.js(camera)
+    assert abs(at[1] - target[1]) < 0.1 * math.dist(at, target)
+    assert opened.js("document.querySelector('[data-view=side]').getAttribute('aria-pressed')") == "true"
+
+
+def test_a_click_on_the_path_moves_the_cursor_there(opened):
+    opened.middle(".scene-canvas")
+    x, y = opened.js("companionPage.page.scene.screenOf(companionPage.page.scene.path.at(16))")
+    opened.click(x, y)
+    assert opened.js(f"{STATE}.cursor") == pytest.approx(16, abs=0.7)
+
+
+def test_a_layer_can_be_put_away(opened):
+    pixels = near(picture_of(opened, ".scene-canvas"), (140, 150, 168), 36)
+    opened.click_on("[data-layer=obstacles]")
+    assert near(picture_of(opened, ".scene-canvas"), (140, 150, 168), 36) < pixels / 4
+    opened.click_on("[data-layer=obstacles]")
+
+
+def test_events_are_filtered_by_level_kind_and_words_and_lead_to_their_moment(opened, flown):
+    rows = "document.querySelectorAll('.event').length"
+    assert opened.js(rows) == len(flown["events"])
+    opened.click_on("[data-level=warnings]")
+    assert opened.js(rows) == sum(e["level"] <= 4 for e in flown["events"])
+    opened.click_on("[data-level=all]")
+    opened.click_on("[data-kind=phase]")
+    assert opened.js(rows) == sum(e["kind"] != "phase" for e in flown["events"])
+    opened.click_on("[data-kind=phase]")
+    opened.press("/")
+    opened.type("takeoff detected")
+    assert opened.js(rows) == 1
+    opened.click_on(".event button")
+    for key in ("Escape", "/"):
+        opened.press(key, 27)
+    opened.js("document.activeElement.value = ''; document.activeElement.dispatchEvent(new Event('input'))")
+    (event,) = [e for e in flown["events"] if "Takeoff detected" in e["text"]]
+    assert opened.js(f"{STATE}.cursor") == pytest.approx(event["t"])
+
+
+def test_a_table_is_sorted_by_a_click_and_searched_by_words(opened):
+    table = "[data-table^=Parameters]"
+    assert opened.js(f"document.querySelectorAll('{table} tbody tr').length") == 12
+    opened.click_on(f"{table} th:nth-child(2) button")
+    opened.click_on(f"{table} th:nth-child(2) button")
+    assert opened.js(f"document.querySelector('{table} tbody td').textContent") == "MPC_EXAMPLE_29"
+    opened.click_on(f"{table} input")
+    opened.type("example_07")
+    assert opened.js(f"document.querySelector('{table} tbody').innerText").split() == ["MPC_EXAMPLE_07", "4.9", "0.7"]
+
+
+def test_dark_is_what_the_system_asks_for_and_a_click_changes_it(browser: Browser, report):
+    page = browser.page(report.as_uri(), dark=True)
+    page.until("window.companionPage?.ready")
+    assert page.js("companionPage.page.plots.all.filter((p) => p.drawn).length") < 6  # the others are not in sight
+    ground = "getComputedStyle(document.body).backgroundColor"
+    assert page.js(ground) == "rgb(15, 18, 23)"
+    plot_middle(page, "speed")
+    page.press("t")
+    page.settle()
+    assert page.js(ground) == "rgb(244, 245, 247)"
+    assert near(picture_of(page, "#plot-speed canvas"), (37, 99, 235), 40) > 100
+    page.press("t")
+    assert page.complaints == []
+    page.close()
+
+
+def test_a_phone_shows_one_column_with_the_scene_first_and_nothing_beyond_its_edge(browser: Browser, report):
+    page = browser.page(report.as_uri(), 390, 844, touch=True)
+    page.until("window.companionPage?.ready")
+    assert page.js("document.documentElement.scrollWidth") == 390
+    tops = [
+        page.box(selector)[1] for selector in (".banner", ".scene", ".checks", "#section-path", "#section-parameters")
+    ]
+    assert tops == sorted(tops)
+    assert page.box(".scene")[1] < 300
+    lefts = [page.box(selector)[0] for selector in (".scene", ".checks", "#plot-speed", ".timeline")]
+    assert max(lefts) - min(lefts) < 3
+    left, top, width, height = plot_middle(page, "speed")
+    page.call(
+        "Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": left + width / 4, "y": top + height / 2}]
+    )
+    page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    page.settle()
+    assert page.js(f"{STATE}.cursor") == pytest.approx(page.js(f"{STATE}.full[1]") / 4, abs=0.3)
+    assert page.complaints == []
+    page.close()
+
+
+def test_paper_gets_every_plot(opened, flown):
+    pdf = opened.call("Page.printToPDF", printBackground=True)["data"]
+    assert len(pdf) > 50_000
+    assert opened.js("companionPage.page.plots.all.every((p) => p.drawn)")
+    opened.complaints[:] = [
+        c for c in opened.complaints if "ReadPixels" not in c
+    ]  # the driver on slow copies for print
+
+
+def test_data_that_are_hostile_or_empty_still_make_a_page(browser: Browser, tmp_path):
+    nan = float("nan")
+    title = "<img src=x onerror=alert(1)>"
+    hostile = contract.Report(
+        header=contract.Header(title, ok=False, failure=title, facts=((title, title),)),
+        scene=contract.Scene(contract.Track([], [], [], [])),
+        plots=(
+            contract.Plot("empty", "tracking", title, "", ()),
+            contract.Plot(
+                "gaps",
+                "else",
+                "gaps",
+                "m",
+                (contract.Series("a", [0, 1, 2, 3, 9], [nan] * 5), contract.Series("b", [2.0], [1e30])),
+            ),
+            contract.Plot(
+                "flat", "else", "flat", "m", (contract.Series("a", [0, 1], [5, 5], "step"),), (("far", 1e9),)
+            ),
+        ),
+        histograms=(contract.Histogram("none", "else", "none", "", [], []),),
+        events=(contract.Event(1.0, "text", 3, title),),
+        tables=(contract.Table("else", title, ("a",), [[title], [None], [nan]]),),
+    )
+    write_page(hostile.to_json(), tmp_path / "hostile.html")
+    page = browser.page((tmp_path / "hostile.html").as_uri())
+    page.until("window.companionPage?.ready")
+    for name in ("empty", "gaps", "flat"):
+        page.middle(f"#plot-{name}")
+        page.until(f"document.querySelector('#plot-{name}').dataset.drawn")
+    assert page.js("document.querySelectorAll('img').length") == 0
+    assert page.js("document.querySelector('h1').textContent") == title
+    assert page.complaints == []
+    page.close()
+
+
+def test_a_page_whose_data_are_broken_says_so(browser: Browser, report, tmp_path):
+    broken = tmp_path / "broken.html"
+    text = report.read_text("utf-8")
+    cut = text.index('id="data">') + 4000
+    broken.write_text(text[:cut] + text[text.index("</script>", cut) :], "utf-8")
+    page = browser.page(broken.as_uri())
+    assert "cannot be read" in page.until("document.querySelector('.complaint')?.textContent")
+    page.close()
