@@ -782,7 +782,9 @@ class Companion:
     def _stream(self, now_us: int, out: list[Output]) -> None:
         if self.link.may_speak and now_us >= self._heartbeat_due_us:
             self._heartbeat_due_us += HEARTBEAT_US * ((now_us - self._heartbeat_due_us) // HEARTBEAT_US + 1)
-            beat = self.link.pack(self._heartbeat())
+            beat = self.link.heartbeat(
+                mavlink.MAV_STATE_ACTIVE if self.phase in STREAMING else mavlink.MAV_STATE_STANDBY
+            )
             out.append(beat)
             out.extend(Datagram(ground, beat.data) for ground in self.config.ground_links)
         if not self._takes_setpoints():
@@ -822,11 +824,6 @@ class Companion:
         if self.phase in (Phase.FLYING, Phase.LINK_LOST, Phase.LANDING) and self.rejoin.under_way(self._flight_us):
             return self.rejoin.reference(self._flight_us, self.itinerary.yaw)
         return self.itinerary.reference(self._flight_us)  # while landing it goes on to the end of its step, as planned
-
-    def _heartbeat(self) -> Any:
-        state = mavlink.MAV_STATE_ACTIVE if self.phase in STREAMING else mavlink.MAV_STATE_STANDBY
-        kind = mavlink.MAV_TYPE_ONBOARD_CONTROLLER
-        return mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)
 
 
 WATCH: dict[Phase, Callable[[Companion, int, list[Output]], Event | None]] = {

@@ -74,9 +74,7 @@ class LastResort:
             return out
         if now_us >= self._beat_due_us:
             self._beat_due_us = now_us + HEARTBEAT_US
-            kind, state = mavlink.MAV_TYPE_ONBOARD_CONTROLLER, mavlink.MAV_STATE_EMERGENCY
-            beat = mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)
-            out.extend(self._to_all(beat))
+            out.extend(self._to_all(self._link.heartbeat(mavlink.MAV_STATE_EMERGENCY)))
         if now_us >= self._land_due_us and not self._autopilot.comes_down(self._telemetry):
             self._land_due_us = now_us + REPEAT_US
             out.append(self._link.pack(self._autopilot.land().message(self._link.target)))
@@ -114,8 +112,7 @@ class LastResort:
             out.append(Note(Level.WARNING, f"the vehicle was told to land: {end}"))
 
     def _told(self) -> list[Datagram]:
-        return self._to_all(mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, TEXT))
+        return self._to_all(self._link.pack(mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, TEXT)))
 
-    def _to_all(self, message: object) -> list[Datagram]:
-        packed = self._link.pack(message)
+    def _to_all(self, packed: Datagram) -> list[Datagram]:
         return [packed, *(Datagram(link, packed.data) for link in self._ground_links)]

@@ -92,6 +92,11 @@ class VehicleLink:
         self._sequence = (self._sequence + 1) & 0xFF
         return Datagram(VEHICLE_LINK, bytes(message.pack(self.decoder)), self.peer)
 
+    def heartbeat(self, state: int) -> Datagram:
+        """HEARTBEAT of the companion to the vehicle; `state` is a MAV_STATE."""
+        kind = mavlink.MAV_TYPE_ONBOARD_CONTROLLER
+        return self.pack(mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3))
+
     def _count_foreign(self, packet: Packet, peer: Address | None) -> None:
         self.foreign_packets += 1
         same_name = self.heard_us is not None and packet.system_id == self.system_id

@@ -181,8 +181,9 @@ LABELS = {
     "vehicle": "Vehicle",
     "flight": "Flight",
     "last_flight": "Last flight",
+    "replanning": "Replanning",
     "links": "Links",
-    "loop": "Loop",
+    "routing": "Packets routed",
     "fleet": "Other vehicles",
 }
 

@@ -41,7 +41,7 @@ class Idle:
     preparing : one is about to; `cancelled` says that somebody does not want it any more.
     place_wanted : a plan waits for where the vehicle stands.
     station : answers ground stations.
-    link, telemetry : of the vehicle; read only.
+    link, telemetry, router : of the vehicle, and to it; read only.
     """
 
     TICK_US = 20_000
@@ -55,7 +55,7 @@ class Idle:
         self.preparing = self.cancelled = self.place_wanted = False
         self.station = GroundStation(lambda: self.link.target, links=config.ground_links)
         self._config = config
-        self._router = Router(config.ground_links)
+        self.router = Router(config.ground_links)
         self.link, self.telemetry = VehicleLink(config.system_id, config.speaks_first), Telemetry()
         self._first_us: int | None = None
         self._heartbeat_due_us = 0
@@ -80,7 +80,7 @@ class Idle:
         self._look(now_us, out)
         if not 0 < self._heartbeat_due_us - now_us <= HEARTBEAT_US:  # due, or the clock was set back between flights
             self._heartbeat_due_us = now_us + HEARTBEAT_US
-            beat = self.link.pack(_heartbeat())
+            beat = self.link.heartbeat(mavlink.MAV_STATE_STANDBY)
             out.extend([beat] if self.link.may_speak else [])
             if self.place_wanted and self._heard and self.telemetry.global_e7 is None:
                 out.append(self.link.pack(_where(self.link.target)))
@@ -120,10 +120,10 @@ class Idle:
                 for packet, obeyed in self.link.packets(now_us, item):
                     if obeyed:
                         self.telemetry.take(now_us, packet, self.link.decoder)
-                out.extend(self._router.route(now_us, item, self.link.system_id, self.link.peer))
+                out.extend(self.router.route(now_us, item, self.link.system_id, self.link.peer))
             case Datagram(link=link) if link in self._config.ground_links:
                 out.extend(self.station.take(now_us, item, self.obey))
-                routed = self._router.route(now_us, item, self.link.system_id, self.link.peer)
+                routed = self.router.route(now_us, item, self.link.system_id, self.link.peer)
                 out.extend(d for d in routed if d.link != VEHICLE_LINK or self.link.may_speak)
             case Order():
                 reason = self.obey(item)
@@ -153,8 +153,3 @@ class Idle:
 def _where(system_id: int) -> Any:
     place, request = mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT, mavlink.MAV_CMD_REQUEST_MESSAGE
     return mavlink.MAVLink_command_long_message(system_id, AUTOPILOT_COMPONENT, request, 0, place, 0, 0, 0, 0, 0, 0)
-
-
-def _heartbeat() -> Any:
-    kind, state = mavlink.MAV_TYPE_ONBOARD_CONTROLLER, mavlink.MAV_STATE_STANDBY
-    return mavlink.MAVLink_heartbeat_message(kind, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, state, 3)

@@ -11,6 +11,7 @@ import numpy as np
 from companion.autopilots import AUTOPILOTS
 from companion.core import Companion
 from companion.phases import AIRBORNE, Phase
+from companion.replanning import Replanning
 from companion.service.idle import Idle
 from companion.telemetry import Telemetry
 from companion.vehiclelink import VehicleLink
@@ -77,6 +78,15 @@ def fleet_state(now_us: int, companion: Companion) -> dict[str, Any] | None:
         return None
     places = companion.fleet.others.places(now_us)
     return {f"vehicle {number}": _rounded(place) for number, place in places.items()}
+
+
+def replanning_state(companion: Companion) -> dict[str, Any] | None:
+    """How often the way was planned again in this flight; null where it is not."""
+    r = companion.replanning
+    if not isinstance(r, Replanning):
+        return None
+    counted = {"asked": r.asked, "late": r.late, "refused": r.refused, "new_ways": r.switches, "stops": r.stops}
+    return {**counted, "from_scratch": r.scratch, "drifts": r.drifts}
 
 
 def verdict_state(verdict: Verdict, recording: str | None) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
@@ -10,12 +11,20 @@ from typing import Any
 
 from companion.core import Companion
 from companion.drivers.tick import Tick
+from companion.ground.router import Router
 from companion.seam import Level, Note
 from companion.service.http import Board
 from companion.service.idle import Idle
 from companion.service.jsonlog import LEVELS, Log
 from companion.service.queue import Missions
-from companion.service.snapshot import fleet_state, flight_state, idle_state, vehicle_state, verdict_state
+from companion.service.snapshot import (
+    fleet_state,
+    flight_state,
+    idle_state,
+    replanning_state,
+    vehicle_state,
+    verdict_state,
+)
 from companion.verdict import FlightMeter, Verdict
 from wire.udp import UdpLink
 
@@ -61,14 +70,14 @@ class Telling:
     def show_idle(self, tick: Tick, idle: Idle, missions: Missions) -> None:
         """Put up the state between flights."""
         if tick.index % EVERY == 0:
-            self._show(missions, idle_state(tick.now_us, idle))
+            self._show(missions, idle.router, idle_state(tick.now_us, idle))
 
     def show_flight(self, tick: Tick, companion: Companion, meter: FlightMeter, missions: Missions) -> None:
         """Put up the state in flight."""
         if tick.index % EVERY == 0:
             vehicle = vehicle_state(tick.now_us, companion.link, companion.telemetry)
             flight, fleet = flight_state(companion, meter), fleet_state(tick.now_us, companion)
-            self._show(missions, vehicle, flight, fleet)
+            self._show(missions, companion.router, vehicle, flight, fleet, replanning_state(companion))
 
     def judged(self, verdict: Verdict, recording: Path) -> None:
         """A flight is over."""
@@ -85,9 +94,11 @@ class Telling:
     def _show(
         self,
         missions: Missions,
+        router: Router,
         vehicle: dict[str, Any],
         flight: dict[str, Any] | None = None,
         fleet: dict[str, Any] | None = None,
+        replanning: dict[str, Any] | None = None,
     ) -> None:
         ready = missions.ready
         links = {name: _link_words(link) for name, link in self.links.items()}
@@ -101,9 +112,11 @@ class Telling:
                 "why_not": missions.why_not or None,
                 "vehicle": vehicle,
                 "flight": flight,
+                "replanning": replanning,
                 "last_flight": self.last_flight,
                 "fleet": fleet,
                 "links": links,
+                "routing": asdict(router.counters),
                 "notes": list(self._notes),
             }
         )

@@ -91,7 +91,7 @@ class Seen(NothingSeen):
     def __init__(self):
         self.kinds = []
 
-    def take(self, now_us, packet, pose):
+    def take(self, packet, pose):
         self.kinds.append((packet.system_id, packet.component_id, packet.message_id))
         return False
 
