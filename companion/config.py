@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from companion.errors import ConfigError
 from companion.fleet.member import FLEET_LINK
 from companion.yamlfile import read_yaml
+from logs.parts import Rotation
 from wire.endpoint import Endpoint
 from wire.errors import EndpointError
 
@@ -59,6 +60,8 @@ class ServiceConfig(BaseModel):
     autostart: bool = False
     record: Path = Path("recordings")
     record_max_mb: Annotated[float, Field(ge=1)] | None = None
+    rotate_mb: Annotated[float, Field(ge=0.1)] | None = None
+    rotate_s: Annotated[float, Field(ge=1)] | None = None
     http: str | None = "127.0.0.1:8780"
     system_id: Annotated[int, Field(ge=1, le=255)] | None = None
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
@@ -111,6 +114,12 @@ class ServiceConfig(BaseModel):
             return {}
         calls = {f"{FLEET_LINK}{k}": Endpoint.parse(url) for k, url in enumerate(self.fleet.others)}
         return {FLEET_LINK: Endpoint.parse(self.fleet.listen)} | calls
+
+    def rotation(self) -> Rotation | None:
+        """When a part of a recording ends."""
+        if self.rotate_mb is None and self.rotate_s is None:
+            return None
+        return Rotation(None if self.rotate_mb is None else round(self.rotate_mb * 1e6), self.rotate_s)
 
     def page(self) -> tuple[str, int] | None:
         """Where the page is served."""

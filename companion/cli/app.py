@@ -32,6 +32,12 @@ Json = Annotated[bool, typer.Option("--json", help="Print exactly one JSON objec
 Autopilot = Annotated[Literal["px4", "ardupilot"], typer.Option(help="Whose behaviour the bundled vehicle shows.")]
 RecordDirectory = Annotated[Path, typer.Option("--record", metavar="DIR", help="Directory for the recording.")]
 Outs = Annotated[list[str] | None, typer.Option("--out", metavar="URL", help="Forward to and from a ground station.")]
+RotateSize = Annotated[
+    float | None, typer.Option("--rotate-size", metavar="MB", help="Begin a new part of this size.", min=0.1)
+]
+RotateTime = Annotated[
+    float | None, typer.Option("--rotate-time", metavar="S", help="Begin a new part this often.", min=1.0)
+]
 
 RECORDINGS = Path("recordings")
 
@@ -42,12 +48,15 @@ def demo(
     out: Outs = None,
     seed: Seed = 1,
     autopilot: Autopilot = "px4",
+    rotate_size: RotateSize = None,
+    rotate_time: RotateTime = None,
     json: Json = False,
 ) -> None:
     """Fly the L-shaped wall with the bundled vehicle, over UDP, recorded. Needs nothing else."""
-    from companion.cli.fly import fly_demo
+    from companion.cli.fly import fly_demo, rotation_of
 
-    raise typer.Exit(fly_demo(record, out or [], seed, autopilot, json))
+    rotation = rotation_of(rotate_size, rotate_time)
+    raise typer.Exit(fly_demo(record, out or [], seed, autopilot, json, rotation))
 
 
 @app.command()
@@ -68,12 +77,16 @@ def fly(
     autopilot: Annotated[
         Literal["px4", "ardupilot"] | None, typer.Option(help="Of bundled vehicles, where the file has several.")
     ] = None,
+    rotate_size: RotateSize = None,
+    rotate_time: RotateTime = None,
     json: Json = False,
 ) -> None:
     """Fly a mission on a vehicle behind a MAVLink/UDP endpoint, or one of several `vehicles` on bundled ones."""
-    from companion.cli.fly import fly_mission
+    from companion.cli.fly import fly_mission, rotation_of
 
-    raise typer.Exit(fly_mission(mission, master, out or [], record, seed, system_id, wait, autopilot, json))
+    rotation = rotation_of(rotate_size, rotate_time)
+    outs = out or []
+    raise typer.Exit(fly_mission(mission, master, outs, record, seed, system_id, wait, autopilot, json, rotation))
 
 
 @app.command()

@@ -15,13 +15,14 @@ from companion.cli.operator import STOPPED, Operator
 from companion.core import Companion, CompanionConfig
 from companion.drivers.flight import fly_guarded
 from companion.drivers.planning import WorkerPlanning
-from companion.drivers.recording import RecordingTap, header, total
+from companion.drivers.recording import RecordingTap, header, socket_losses, total
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.mission import Expect, Mission
 from companion.seam import FloatArray
 from companion.verdict import FlightMeter, Verdict, judge
 from logs.errors import RecordingError
+from logs.parts import Rotation
 from logs.recorder import Recorder
 from logs.recovery import recover_unfinished
 from wire.endpoint import Endpoint
@@ -66,6 +67,7 @@ def fly_recorded(
     config: CompanionConfig,
     operator: Operator,
     *,
+    rotation: Rotation | None = None,
     watch: "subprocess.Popen[bytes] | None" = None,
     progress: Progress = show.ProgressLine,
     go: Callable[[], bool] = lambda: True,
@@ -74,6 +76,7 @@ def fly_recorded(
 
     Parameters
     ----------
+    rotation : when a part of the recording ends.
     watch : a process whose end is the flight's.
     progress : what a person sees of it.
     go : asked once when all is prepared; False: it is not flown.
@@ -93,8 +96,10 @@ def fly_recorded(
         links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
         urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
         start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
+        start |= {"rotation": rotation, "losses": socket_losses(links)}
         recorder = stack.enter_context(Recorder(file, threaded=True, **start))
-        taps: list[Tap] = [meter, RecordingTap(companion, recorder)]
+        notice = lambda text: out.print(show.plain(text), soft_wrap=True)  # noqa: E731  once
+        taps: list[Tap] = [meter, RecordingTap(companion, recorder, notice)]
         taps.append(stack.enter_context(progress(companion, meter, out)))
         stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
         told = lambda text, trace: out.print(f"{text}\n{trace}", markup=False, soft_wrap=True)  # noqa: E731  once

@@ -13,6 +13,7 @@ from companion.fleet.missions import has_vehicles, split
 from companion.missionfile import parse_mission, read_mission_file
 from companion.service.queue import recording_file
 from companion.vehiclelink import VEHICLE_LINK
+from logs.parts import Rotation
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
@@ -20,7 +21,14 @@ if TYPE_CHECKING:
     from fakevehicle.config import Autopilot
 
 
-def fly_demo(record: Path, outs: list[str], seed: int, autopilot: "Autopilot", as_json: bool) -> int:
+def fly_demo(
+    record: Path,
+    outs: list[str],
+    seed: int,
+    autopilot: "Autopilot",
+    as_json: bool,
+    rotation: Rotation | None = None,
+) -> int:
     """The embedded default: the bundled vehicle as its own process, on a port the system chooses."""
     from companion.cli.vehicle import running_vehicle
 
@@ -33,7 +41,8 @@ def fly_demo(record: Path, outs: list[str], seed: int, autopilot: "Autopilot", a
     config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
     operator, url = Operator(), f"udpout:{host}:{port}"
     with operator.listening(), running_vehicle(mission, url, seed, vehicle_log(file), autopilot) as vehicle:
-        return fly_recorded(mission, data, endpoints, file, config, operator, watch=vehicle).tell(as_json)
+        flown = fly_recorded(mission, data, endpoints, file, config, operator, rotation=rotation, watch=vehicle)
+        return flown.tell(as_json)
 
 
 def fly_mission(
@@ -46,6 +55,7 @@ def fly_mission(
     wait_s: float,
     autopilot: "Autopilot | None",
     as_json: bool,
+    rotation: Rotation | None = None,
 ) -> int:
     """Fly `path` on whatever answers at `master`, or its several vehicles on bundled ones; returns the exit code."""
     data = read_mission_file(path)
@@ -55,7 +65,7 @@ def fly_mission(
         if master is not None or outs or system_id is not None:
             several = "of a file with vehicles each is a bundled one, at a port of its own"
             raise typer.BadParameter(f"found with {path}, expected without: {several}", param_hint="--master")
-        return fly_several(split(data, str(path)), path, seed, record, autopilot or "px4", as_json)
+        return fly_several(split(data, str(path)), path, seed, record, autopilot or "px4", as_json, rotation)
     if master is None:
         raise typer.BadParameter("found nothing, expected the URL where the vehicle is", param_hint="--master")
     if autopilot is not None:
@@ -73,7 +83,14 @@ def fly_mission(
     operator = Operator()
     with operator.listening():
         file = recording_file(record, mission)
-        return fly_recorded(mission, data, endpoints, file, config, operator).tell(as_json)
+        return fly_recorded(mission, data, endpoints, file, config, operator, rotation=rotation).tell(as_json)
+
+
+def rotation_of(size_mb: float | None, seconds: float | None) -> Rotation | None:
+    """When a part of a recording ends, as a person says it; None: never."""
+    if size_mb is None and seconds is None:
+        return None
+    return Rotation(None if size_mb is None else round(size_mb * 1e6), seconds)
 
 
 def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:

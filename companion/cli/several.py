@@ -37,6 +37,7 @@ from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter
 from fakevehicle.config import Autopilot
 from logs.errors import LogsError
+from logs.parts import Rotation
 from wire.endpoint import Endpoint
 from wire.errors import WireError
 from wire.udp import UdpLink
@@ -60,9 +61,18 @@ class _Job:
     endpoints: dict[str, Endpoint]
     recording: Path
     config: CompanionConfig
+    rotation: Rotation | None
 
 
-def fly_several(parts: list[Part], path: Path, seed: int, record: Path, autopilot: Autopilot, as_json: bool) -> int:
+def fly_several(
+    parts: list[Part],
+    path: Path,
+    seed: int,
+    record: Path,
+    autopilot: Autopilot,
+    as_json: bool,
+    rotation: Rotation | None = None,
+) -> int:
     """Fly the parts of a mission file on bundled vehicles; returns the exit code.
 
     All is well when every flight ends as its mission expects and no two hulls have touched.
@@ -70,7 +80,7 @@ def fly_several(parts: list[Part], path: Path, seed: int, record: Path, autopilo
     if len(parts) > MOST:
         wanted = f"expected at most {MOST} over UDP: companion simulate flies more"
         raise MissionError(str(path), [f"vehicles: found {len(parts)}, {wanted}"])
-    jobs, operator, out = _jobs(parts, path, seed, record), Operator(), show.console()
+    jobs, operator, out = _jobs(parts, path, seed, record, rotation), Operator(), show.console()
     with ExitStack() as stack:
         stack.enter_context(operator.listening())
         for k, (part, job) in enumerate(zip(parts, jobs, strict=True)):
@@ -120,7 +130,7 @@ def _places(path: FloatArray, at_us: FloatArray) -> FloatArray:
     return np.column_stack([np.interp(at_us, path[:, 0], path[:, k]) for k in (1, 2, 3)])
 
 
-def _jobs(parts: list[Part], path: Path, seed: int, record: Path) -> list[_Job]:
+def _jobs(parts: list[Part], path: Path, seed: int, record: Path, rotation: Rotation | None) -> list[_Job]:
     """What each is told: its ports on loopback, the others', and its number."""
     count = len(parts)
     with ExitStack() as stack:
@@ -135,7 +145,8 @@ def _jobs(parts: list[Part], path: Path, seed: int, record: Path) -> list[_Job]:
         ends |= {f"{FLEET_LINK}{j}": Endpoint("udpout", *place) for j, place in enumerate(others)}
         config = CompanionConfig(seed=seed + k, fleet_number=k + 1, fleet_calls=count - 1)
         file = recording_file(record, part.mission)
-        jobs.append(_Job(part.name, part.data, str(path), ends, file.with_stem(f"{file.stem}-{k + 1}"), config))
+        file = file.with_stem(f"{file.stem}-{k + 1}")
+        jobs.append(_Job(part.name, part.data, str(path), ends, file, config, rotation))
     return jobs
 
 
@@ -202,7 +213,15 @@ def _one(pipe: "Connection[Any, Any]", job: _Job) -> None:
         try:
             mission = parse_mission(job.data, str(Path(job.file).with_name(f"{Path(job.file).name}: {job.name}")))
             flown = fly_recorded(
-                mission, job.data, job.endpoints, job.recording, job.config, operator, progress=progress, go=go
+                mission,
+                job.data,
+                job.endpoints,
+                job.recording,
+                job.config,
+                operator,
+                rotation=job.rotation,
+                progress=progress,
+                go=go,
             )
             pipe.send(replace(flown, verdict=replace(flown.verdict, track=None)))
         except (CompanionError, LogsError, WireError) as error:

@@ -5,7 +5,7 @@ arrival, what left with the moment it had left; both carry the tick's number (do
 """
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 from zlib import crc32
@@ -34,6 +34,7 @@ from logs.recorder import Recorder, RecorderCounters
 from logs.table import Entry, inputs_digest
 from planner import Trajectory
 from wire.datagram import Datagram
+from wire.udp import UdpLink
 
 MISSION_ATTACHMENT = "mission.yaml"
 CONFIG_METADATA = "companion.config"
@@ -198,16 +199,35 @@ def total(counters: RecorderCounters) -> int:
     return sum(counters.rx.values()) + sum(counters.tx.values()) + counters.decoded + counters.messages
 
 
+def socket_losses(links: Mapping[str, UdpLink]) -> Callable[[], dict[str, int]]:
+    """What is lost at the sockets, for `Recorder`: by the kernel on the way in, and what it would not send."""
+
+    def losses() -> dict[str, int]:
+        values: dict[str, int] = {}
+        for name, link in links.items():
+            counters = link.counters
+            values |= {f"{name}.kernel_drops": counters.drops, f"{name}.send_errors": counters.send_errors}
+        return values
+
+    return losses
+
+
 class RecordingTap:
     """Writes every tick to a recorder, if there is one: inputs, the tick itself, outputs.
+
+    Parameters
+    ----------
+    tell : takes what a person should know of the recording: that the disk fills up, is full, has room again.
 
     Attributes
     ----------
     outputs : hash of all outputs so far.
     """
 
-    def __init__(self, companion: Companion, recorder: Recorder | None) -> None:
-        self._companion, self._recorder = companion, recorder
+    def __init__(
+        self, companion: Companion, recorder: Recorder | None, tell: Callable[[str], None] = lambda text: None
+    ) -> None:
+        self._companion, self._recorder, self._tell = companion, recorder, tell
         self.outputs = OutputHash()
 
     def __call__(self, tick: Tick) -> None:
@@ -222,6 +242,8 @@ class RecordingTap:
             _write(self._recorder, tick, "rx", received_us, entry)
         for entry in (tick_record(tick, inputs), *outputs):
             _write(self._recorder, tick, "tx", tick.sent_us, entry)
+        for notice in self._recorder.notices():
+            self._tell(notice)
 
 
 def _write(recorder: Recorder, tick: Tick, direction: Direction, stamp_us: int, entry: Entry) -> None:

@@ -118,7 +118,7 @@ def recording_file(directory: Path, mission: Mission) -> Path:
     return directory / f"{slug}-{datetime.now(UTC):%Y%m%dT%H%M%S_%fZ}.mcap"
 
 
-_OURS = re.compile(r"[a-z0-9-]+-\d{8}T\d{6}_\d{6}Z\.mcap")
+_OURS = re.compile(r"[a-z0-9-]+-\d{8}T\d{6}_\d{6}Z(\.part\d{4})?\.mcap")
 
 
 def make_room(directory: Path, most_mb: float) -> list[Path]:

@@ -20,7 +20,7 @@ from companion.core import Companion, CompanionConfig
 from companion.drivers.flight import NothingPlanned, fly_guarded
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.realtime import fly_realtime
-from companion.drivers.recording import RecordingTap, header
+from companion.drivers.recording import RecordingTap, header, socket_losses
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.ground.station import GroundStation
@@ -167,7 +167,9 @@ class Service:
             file = recording_file(self._config.record, mission)
             urls = {name: str(endpoint) for name, endpoint in self._endpoints.items()}
             start = header(companion, ready.data, endpoints=urls, clock={"epoch": "unix"})
+            start |= {"rotation": self._config.rotation(), "losses": socket_losses(telling.links)}
             recorder = stack.enter_context(Recorder(file, threaded=True, **start))
+            recording = RecordingTap(companion, recorder, lambda text: telling.say(Level.WARNING, text))
             telling.state = "flying"
             telling.phase = lambda: companion.phase.value
             self._systemd.status(f"flying {mission.name}")
@@ -176,7 +178,7 @@ class Service:
                 companion,
                 telling.links,
                 planning,
-                [self._systemd, meter, RecordingTap(companion, recorder), telling.hear, show],
+                [self._systemd, meter, recording, telling.hear, show],
                 operator=signals,
                 stop=signals.stop,
                 told=lambda text, trace: telling.say(Level.ERROR, text, traceback=trace),
