@@ -142,7 +142,7 @@ class Itinerary:
 
     def airborne(self, now_us: int) -> None:
         """Start walking with the takeoff done by somebody else: the step after it begins."""
-        self._main.index, self._main.entered_us = 1, now_us
+        self._main.index, self._main.entered_us = 1, round(self._main.pace.at(now_us).us)
         self._enter()
 
     def climb(self, now_us: int) -> bool:

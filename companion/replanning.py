@@ -26,7 +26,7 @@ from companion.mission import Mission
 from companion.motion import JOINT, end_us, joint, state_at
 from companion.seam import FloatArray, Flown, Level, Note, PlanWanted, ReplanReady, ReplanWanted
 from companion.seeing.sight import Sight
-from planner import Trajectory
+from planner import MovingSphere, Trajectory
 from planner.backup import dash
 
 PERIOD_US, LONGEST_US = 100_000, 400_000
@@ -177,13 +177,15 @@ class Replanning:
 
     def _turned(self, flight_us: int, flown: Flown) -> Flown:
         """What is flown; the quickest stop instead, where that leads elsewhere than the leg does now."""
-        end = flown.trajectory.position(flown.trajectory.duration)
-        assert self._aim is not None
-        stop = self._dash(flight_us, flown) if flown.to_goal and math.dist(end, self._aim.goal_m) > ELSEWHERE else None
+        stop = self._dash(flight_us, flown) if flown.to_goal and not self._ends_at_goal(flown) else None
         if stop is None:
             return flown
         self._itinerary.follow(flight_us, stop)
         return stop
+
+    def _ends_at_goal(self, flown: Flown) -> bool:
+        assert self._aim is not None
+        return math.dist(flown.trajectory.position(flown.trajectory.duration), self._aim.goal_m) <= ELSEWHERE
 
     def _decide(self, boundary: int, flown: Flown) -> Flown:
         """What is flown from this boundary on."""
@@ -228,20 +230,35 @@ class Replanning:
         return chosen
 
     def _stop(self, boundary: int, flown: Flown, backup: Flown | None, least: Flown | None, why: str) -> Flown:
-        """What is clear for longest: what is flown, the stop kept ready, the quickest one, the planner's least bad."""
-        if not flown.to_goal and self._clear(flown, boundary) == math.inf:
-            return flown
+        """A stop that is clear: the one kept ready, the quickest, or the planner's, which keeps farthest from what moves.
+
+        Where none is, and at rest, it is the planner's, if what stands is not in its way; else what is clear longest.
+        """
         if flown.to_goal and self._cleared_for_now(flown, boundary):
+            return flown
+        lasts = self._clear(flown, boundary)
+        if not flown.to_goal and least is not None and self._joins(flown, least):
+            passes = self._clear(least, boundary, movers=()) == math.inf
+            if passes and self._clear(least, boundary) >= lasts:
+                return self._stopping(flown, least, why)
+        if not flown.to_goal and lasts == math.inf:
             return flown
         ways = (backup, self._dash(boundary, flown), least)
         found = [stop for stop in ways if stop is not None and self._joins(flown, stop)]
         if not found:
             return flown
         stop = max(found, key=lambda stop: self._clear(stop, boundary))
-        if self._clear(stop, boundary) <= self._clear(flown, boundary) and not flown.to_goal:
+        passes = least in found and self._clear(least, boundary, movers=()) == math.inf
+        if passes and least is not None and self._clear(stop, boundary) < math.inf:
+            return self._stopping(flown, least, why)
+        if self._clear(stop, boundary) <= lasts and not flown.to_goal:
             return flown
+        return self._stopping(flown, stop, why)
+
+    def _stopping(self, flown: Flown, stop: Flown, why: str) -> Flown:
         self.stops += 1
-        self._tell(Level.WARNING, f"stopping: {why}")
+        if flown.to_goal:
+            self._tell(Level.WARNING, f"stopping: {why}")
         return stop
 
     def _cleared_for_now(self, flown: Flown, boundary: int) -> bool:
@@ -273,10 +290,18 @@ class Replanning:
         ahead_s = 2e-6 * self._period_us + limits.speed / limits.acceleration + limits.acceleration / limits.jerk
         return self._clear(chosen, boundary, boundary + round(ahead_s * 1e6)) == math.inf
 
-    def _clear(self, flown: Flown, from_us: int, until_us: int | None = None, radius: float | None = None) -> float:
-        until = end_us(flown) + STANDING_US if until_us is None else until_us
+    def _clear(
+        self,
+        flown: Flown,
+        from_us: int,
+        until_us: int | None = None,
+        radius: float | None = None,
+        movers: tuple[MovingSphere, ...] | None = None,
+    ) -> float:
+        until = max(end_us(flown), from_us) + STANDING_US if until_us is None else until_us
         keep = self._hull if radius is None else radius
-        return clear_for(flown, from_us, until, self._sight.map, self._sight.tracks.movers(), keep)
+        movers = self._sight.tracks.movers() if movers is None else movers
+        return clear_for(flown, from_us, until, self._sight.map, movers, keep)
 
     def _joins(self, flown: Flown, successor: Flown) -> bool:
         if successor is flown:
@@ -326,7 +351,7 @@ class Replanning:
         self._stopped_us = self._stopped_us or flight_us
         if flight_us - self._stopped_us > PATIENCE_US and not self.trouble:
             self.trouble = "no way on is proved"
-        if self._cold is not None or flight_us < self._cold_us:
+        if self._cold is not None or flight_us < self._cold_us or self._ends_at_goal(flown):
             return []
         self._requests += 1
         view = self._sight.map.view()

@@ -54,6 +54,25 @@ def test_a_climb_stops_below_what_crosses_it_and_goes_on_when_that_is_gone():
     assert watched.run(6.0) == pytest.approx((10.0, 10.0, -4.0))
 
 
+def test_a_step_after_a_climb_that_stopped_on_the_way_begins_at_once():
+    watched = Watched(climbing=True)
+    mission = parse_mission(
+        MISSION.replace("land]", "hold: {seconds: 2}}, land]").replace("4}}, h", "4}}, {h").encode(), ""
+    )
+    watched.itinerary = Itinerary(mission, 1)
+    watched.lookout = Lookout(mission, watched.itinerary, watched.sight)
+    watched.itinerary.begin(0)
+    watched.run(2.0)
+    watched.run(3.0, (10.0, 10.0, -3.0))
+    watched.run(6.0)
+    watched.climbing = False
+    watched.itinerary.airborne(watched.now_us)
+    watched.run(1.9)
+    assert not watched.itinerary.finished()
+    watched.run(0.2)
+    assert watched.itinerary.finished()
+
+
 def test_a_climb_goes_on_when_standing_there_would_be_hit_as_well():
     watched = Watched(climbing=True)
     here = watched.run(3.0)

@@ -297,3 +297,13 @@ def test_where_the_goal_is_too_near_to_something_no_answer_leads_to_a_goal():
         ready = desk.answer(wanted)
         assert ready.flown is None or not ready.flown.to_goal
         wanted = replace(wanted, fresh=False, map=None, now_us=wanted.switch_us, switch_us=wanted.switch_us + PERIOD_US)
+
+
+def test_a_vehicle_at_rest_is_looked_ahead_for_however_long_it_has_been_resting():
+    flight = Flight()
+    flight.run(0.02)
+    rest = Flown(plan(WORLD, (5.0, 10.0, -2.0), (6.0, 10.0, -2.0), LIMITS, 0.3).trajectory, BEGIN_US, to_goal=False)
+    for later_us in (0, 10_000_000):
+        now_us = end_us(rest) + later_us
+        flight.sight.tracks.told(now_us, 1, (6.0, 11.8, -2.0), (0.0, -1.5, 0.0), 0.5)
+        assert 0.2 < flight.replanning._clear(rest, now_us) < 0.7
