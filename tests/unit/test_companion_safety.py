@@ -212,7 +212,9 @@ ROWS = [
 
 @pytest.mark.parametrize("flavour", ["px4", "ardupilot"])
 @pytest.mark.parametrize(
-    ("rule", "phase", "happens", "not_before", "by", "then", "reason"), [r for r in ROWS if r[2]], ids=lambda v: str(v)
+    ("rule", "phase", "happens", "not_before", "by", "then", "reason"),
+    [r for r in ROWS if r[2]],
+    ids=lambda v: getattr(v, "__name__", str(v)),
 )
 def test_a_row_of_the_table_leads_where_it_says_and_not_before(
     flavour, rule, phase, happens, not_before, by, then, reason
