@@ -131,7 +131,12 @@ def _failsafe(w: Watch) -> str:
 
 
 def _pilot_unknown(w: Watch) -> str:
-    if w.mode_s <= MODE_S or w.silent_s >= HEARD_S:
+    if w.silent_s >= HEARD_S:
+        return ""
+    if w.mode_s > SILENT_S and w.error_m > ADRIFT_M and w.position_s <= POSITION_HOLD_S:
+        away = f"it is {w.error_m:.1f} m from its reference"
+        return f"no HEARTBEAT from the vehicle for {SILENT_S:g} s, and {away}: a pilot may fly it; it is not fought for"
+    if w.mode_s <= MODE_S:
         return ""
     return f"no HEARTBEAT from the vehicle for {MODE_S:g} s: who flies it is not known; it is not fought for"
 

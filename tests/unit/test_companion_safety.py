@@ -749,3 +749,16 @@ def test_no_setpoint_ends_the_climb_of_a_vehicle_that_climbs_by_itself_and_is_no
     puppet.landed = AIR
     puppet.run(0.2)
     assert puppet.references
+
+
+def test_a_vehicle_that_leaves_its_path_while_no_heartbeat_tells_whose_it_is_is_not_told_to_land():
+    puppet = Puppet("ardupilot", FLYING)
+    puppet.silent_on = ("HEARTBEAT",)
+    puppet.run(5.0)
+    assert puppet.companion.phase is FLYING
+    strays(1.5)(puppet)
+    assert puppet.run(0.1).phase is Phase.HANDED_OVER
+    strays(5.0)(puppet)
+    puppet.run(10.0)
+    assert puppet.modes_asked() == []
+    assert "a pilot may fly it" in puppet.companion.failure
