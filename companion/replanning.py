@@ -19,15 +19,13 @@ from dataclasses import replace
 import numpy as np
 
 from companion.column import climb_crossed_s
-from companion.guard import clear_for
 from companion.hooks import Pose
 from companion.itinerary import Itinerary
 from companion.mission import Mission
-from companion.motion import JOINT, end_us, joint, state_at
-from companion.seam import FloatArray, Flown, Level, Note, PlanWanted, ReplanReady, ReplanWanted
+from companion.motion import end_us, state_at
+from companion.seam import Flown, Level, Note, PlanWanted, ReplanReady, ReplanWanted
 from companion.seeing.sight import Sight
-from planner import MovingSphere, Trajectory
-from planner.backup import dash
+from companion.ways import Ways
 
 PERIOD_US, LONGEST_US = 100_000, 400_000
 DRIFT_M, DRIFT_US = 0.5, 300_000
@@ -43,8 +41,6 @@ ELSEWHERE = 1e-3
 """A way that ends so far from the goal does not lead to it [m]."""
 AWAY_SPARE = 0.1
 """What a step out of the radius may come nearer than where it begins, by the newest map [m]."""
-STANDING_US = 1_000_000
-"""For so long after its end a way is to be clear as well: the vehicle stands there."""
 FORGIVEN, RECENT_US = 1, 2_000_000
 """How often on a leg, when nothing on the ladder leads on, what was not seen so lately is forgotten."""
 AGAIN_US, AGAIN_LATER_US = 500_000, 1_500_000
@@ -68,16 +64,15 @@ class Replanning:
     asked, late, refused : questions, answers that came too late, answers that the guard refused.
     switches, stops, scratch : new ways on that were flown, stops that were flown, plans from scratch among the former.
     drifts : starts anew from where the vehicle was, since it was elsewhere than it should be.
-    worst_joint : the greatest jump of a switch [m], [m/s], [m/s^2].
     """
 
     def __init__(self, mission: Mission, itinerary: Itinerary, sight: Sight, seed: int) -> None:
         self.trouble = ""
         self.asked = self.late = self.refused = self.switches = self.stops = self.scratch = 0
         self.drifts = 0
-        self.worst_joint = 0.0
         self._mission, self._itinerary, self._sight, self._seed = mission, itinerary, sight, seed
         self._hull = mission.vehicle.radius + TIGHTEST
+        self._ways = Ways(sight, self._hull, mission.planner_limits())
         self._said: list[Note] = []
         self._period_us = self._asked_period_us = PERIOD_US
         self._requests = 0
@@ -97,6 +92,11 @@ class Replanning:
         self._on_track_us = 0
         self._lost = False
         self._forgiven = 0  # times the map was cut down to what is in sight, on this leg
+
+    @property
+    def worst_joint(self) -> float:
+        """The greatest jump of a switch [m], [m/s], [m/s^2]."""
+        return self._ways.worst_joint
 
     def take(self, ready: ReplanReady, flight_us: int) -> None:
         """An answer; what was not asked for, or is too late, is dropped."""
@@ -130,6 +130,7 @@ class Replanning:
         if aim is not self._aim:
             self._forget()
             self._aim, self._due_us, self._on_track_us = aim, flight_us, flight_us
+            self._ways.limits = aim.limits
             self._sight.jumped, self._forgiven = False, 0
             flown = self._turned(flight_us, flown)
         flown = self._where_it_is(flight_us, pose, flown)
@@ -164,7 +165,7 @@ class Replanning:
         lost, self._lost = self._lost, False
         if not (jumped or lost) and flight_us - self._on_track_us <= DRIFT_US:
             return flown
-        stop = self._stop_from(flight_us, np.array([pose.position_m, pose.velocity_m, np.zeros(3)]))
+        stop = self._ways.stop_from(flight_us, np.array([pose.position_m, pose.velocity_m, np.zeros(3)]))
         if stop is None:
             return flown
         what = "the vehicle's origin moved" if jumped else f"{error:.1f} m from what is flown"
@@ -177,7 +178,7 @@ class Replanning:
 
     def _turned(self, flight_us: int, flown: Flown) -> Flown:
         """What is flown; the quickest stop instead, where that leads elsewhere than the leg does now."""
-        stop = self._dash(flight_us, flown) if flown.to_goal and not self._ends_at_goal(flown) else None
+        stop = self._ways.quickest_stop(flight_us, flown) if flown.to_goal and not self._ends_at_goal(flown) else None
         if stop is None:
             return flown
         self._itinerary.follow(flight_us, stop)
@@ -209,10 +210,10 @@ class Replanning:
             chosen = flown if answer.flown is None else answer.flown
             if not answer.certified:
                 why = answer.reason or answer.kind
-            elif not self._passes(chosen, boundary):
+            elif not self._ways.passes(chosen, boundary, self._period_us):
                 self.refused += 1
                 why = "what is seen now is in the way of the answer"
-            elif self._joins(flown, chosen):
+            elif self._ways.joins(flown, chosen):
                 return self._taken(flown, chosen, answer)
             else:
                 why = "the answer does not join what is flown"
@@ -230,87 +231,17 @@ class Replanning:
         return chosen
 
     def _stop(self, boundary: int, flown: Flown, backup: Flown | None, least: Flown | None, why: str) -> Flown:
-        """A stop that is clear: the one kept ready, the quickest, or the planner's, which keeps farthest from what moves.
-
-        Where none is, and at rest, it is the planner's, if what stands is not in its way; else what is clear longest.
-        """
-        if flown.to_goal and self._cleared_for_now(flown, boundary):
-            return flown
-        lasts = self._clear(flown, boundary)
-        if not flown.to_goal and least is not None and self._joins(flown, least):
-            passes = self._clear(least, boundary, movers=()) == math.inf
-            if passes and self._clear(least, boundary) >= lasts:
-                return self._stopping(flown, least, why)
-        if not flown.to_goal and lasts == math.inf:
-            return flown
-        ways = (backup, self._dash(boundary, flown), least)
-        found = [stop for stop in ways if stop is not None and self._joins(flown, stop)]
-        if not found:
-            return flown
-        stop = max(found, key=lambda stop: self._clear(stop, boundary))
-        passes = least in found and self._clear(least, boundary, movers=()) == math.inf
-        if passes and least is not None and self._clear(stop, boundary) < math.inf:
-            return self._stopping(flown, least, why)
-        if self._clear(stop, boundary) <= lasts and not flown.to_goal:
-            return flown
-        return self._stopping(flown, stop, why)
-
-    def _stopping(self, flown: Flown, stop: Flown, why: str) -> Flown:
-        self.stops += 1
+        """What is flown without an answer: one more period of the same, if a stop after it is clear, or a stop."""
         if flown.to_goal:
-            self._tell(Level.WARNING, f"stopping: {why}")
+            self._backup = self._ways.stop_after(boundary, flown, self._period_us)
+            if self._backup is not None:
+                return flown
+        stop = self._ways.without_answer(boundary, flown, backup, least)
+        if stop is not flown:
+            self.stops += 1
+            if flown.to_goal:
+                self._tell(Level.WARNING, f"stopping: {why}")
         return stop
-
-    def _cleared_for_now(self, flown: Flown, boundary: int) -> bool:
-        """Whether one more period may be flown without an answer: a stop after it is clear, too."""
-        later = boundary + self._period_us
-        stop = self._dash(later, flown)
-        if stop is None or self._clear(flown, boundary, later + self._period_us) < math.inf:
-            return False
-        if self._clear(stop, later) < math.inf:
-            return False
-        self._backup = stop
-        return True
-
-    def _dash(self, begin_us: int, flown: Flown) -> Flown | None:
-        """The quickest stop, straight on, from what is flown at a time."""
-        s = state_at(flown, begin_us)
-        return self._stop_from(begin_us, np.array([s.position, s.velocity, s.acceleration]))
-
-    def _stop_from(self, begin_us: int, state: FloatArray) -> Flown | None:
-        assert self._aim is not None
-        limits = self._aim.limits
-        points, knots = dash(state, np.zeros(3), 0, np.array([limits.speed, limits.acceleration, limits.jerk]))
-        return Flown(Trajectory(points, knots), begin_us, to_goal=False) if len(points) else None
-
-    def _passes(self, chosen: Flown, boundary: int) -> bool:
-        """Whether the guard lets an answer be flown: clear for as long as the next answer and a stop take."""
-        assert self._aim is not None
-        limits = self._aim.limits
-        ahead_s = 2e-6 * self._period_us + limits.speed / limits.acceleration + limits.acceleration / limits.jerk
-        return self._clear(chosen, boundary, boundary + round(ahead_s * 1e6)) == math.inf
-
-    def _clear(
-        self,
-        flown: Flown,
-        from_us: int,
-        until_us: int | None = None,
-        radius: float | None = None,
-        movers: tuple[MovingSphere, ...] | None = None,
-    ) -> float:
-        until = max(end_us(flown), from_us) + STANDING_US if until_us is None else until_us
-        keep = self._hull if radius is None else radius
-        movers = self._sight.tracks.movers() if movers is None else movers
-        return clear_for(flown, from_us, until, self._sight.map, movers, keep)
-
-    def _joins(self, flown: Flown, successor: Flown) -> bool:
-        if successor is flown:
-            return True
-        jump = joint(flown, successor)
-        if jump <= JOINT:
-            self.worst_joint = max(self.worst_joint, jump)
-            return True
-        return False
 
     # ---- what to ask --------------------------------------------------------------------------------------------
 
@@ -401,16 +332,16 @@ class Replanning:
         self._cold = self._cold_answer = None
         self._cold_us = boundary + AGAIN_US
         chosen = replace(answer.flown, start_us=boundary)
-        if not self._joins(flown, chosen):
+        if not self._ways.joins(flown, chosen):
             return None
         if not chosen.to_goal:  # a step out of the radius of what is near
             self._cold_us = boundary
             near = min(self._hull, answer.clearance - AWAY_SPARE)
-            if self._clear(chosen, boundary, radius=near) < math.inf:
+            if self._ways.clear(chosen, boundary, radius=near) < math.inf:
                 return None
             self._fresh = True
             return chosen
-        if not self._passes(chosen, boundary):
+        if not self._ways.passes(chosen, boundary, self._period_us):
             return None
         self._fresh, self._backup = True, None
         self.switches += 1

@@ -306,4 +306,4 @@ def test_a_vehicle_at_rest_is_looked_ahead_for_however_long_it_has_been_resting(
     for later_us in (0, 10_000_000):
         now_us = end_us(rest) + later_us
         flight.sight.tracks.told(now_us, 1, (6.0, 11.8, -2.0), (0.0, -1.5, 0.0), 0.5)
-        assert 0.2 < flight.replanning._clear(rest, now_us) < 0.7
+        assert 0.2 < flight.replanning._ways.clear(rest, now_us) < 0.7
