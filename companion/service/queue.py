@@ -42,6 +42,7 @@ class Missions:
         self._file, self._folder, self._number = file, folder, number
         self._flown: set[str] = set()
         self._uploaded: Ready | None = None
+        self._refusal = ""  # why what was uploaded cannot be flown
         self._seen = b""  # the bytes that `ready` was read from
         self.ready: Ready | None = None
         self.why_not = "there is no mission"
@@ -52,8 +53,8 @@ class Missions:
         A file whose bytes are as they were is not parsed again, unless it is looked at `anew`: the files of voxels and
         clouds that it names may be others now.
         """
-        if self._uploaded is not None:
-            self.ready, self.why_not = self._uploaded, ""
+        if self._uploaded is not None or self._refusal:  # and no file instead of a plan that cannot be flown
+            self.ready, self.why_not = self._uploaded, self._refusal
             return
         try:
             path = self._file if self._folder is None else self._next()
@@ -82,13 +83,12 @@ class Missions:
 
     def upload(self, data: bytes | None) -> None:
         """A ground station's plan comes next, before what the files say; None: it was cleared."""
-        self._uploaded = None
+        self._uploaded, self._refusal = None, ""
         if data is not None:
             try:
                 self._uploaded = Ready(self.UPLOADED, data, parse_mission(data, self.UPLOADED))
             except MissionError as error:
-                self.ready, self.why_not = None, error.args[0].splitlines()[0]
-                return
+                self._refusal = error.args[0].splitlines()[0]
         self.look()
 
     def done(self) -> None:

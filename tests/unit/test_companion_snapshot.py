@@ -16,9 +16,10 @@ from companion.ground.station import plan_file
 from companion.missionfile import load_mission
 from companion.planfiles.items import Item
 from companion.seam import Level, Note, Order
-from companion.service.http import MOST_THREADS, Board, render, served
+from companion.service.http import MOST_THREADS, Board, served
 from companion.service.idle import Idle
 from companion.service.jsonlog import Log
+from companion.service.page import render
 from companion.service.queue import Missions, make_room, recording_file
 from companion.service.snapshot import flight_state, idle_state, vehicle_state
 from companion.vehiclelink import VEHICLE_LINK
@@ -213,6 +214,12 @@ def test_the_page_needs_nothing_from_elsewhere_and_takes_any_state() -> None:
         assert "http://" not in page
         assert "https://" not in page
     assert "50 %" in page
+    assert "position NED" in page
+    nothing, something = ({"routing": {"routed": n, "ours": 0}} for n in (0, 3))
+    assert "Packets routed" not in render(nothing, "")
+    assert "Packets routed" in render(something, "")
+    told = render({"notes": [{"time": "2026-11-23T19:46:28.355Z", "level": "warning", "text": "<i>"}]}, "")
+    assert '<span class="warn">&lt;i&gt;</span>' in told
     assert "1 h 6 min" in page
 
 
