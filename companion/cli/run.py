@@ -9,7 +9,7 @@ from companion.config import load_config
 from companion.errors import CompanionError
 from companion.seam import Level
 from companion.service.jsonlog import Log
-from companion.service.run import Service
+from companion.service.loop import Service
 from companion.service.systemd import Systemd
 from logs.errors import LogsError
 from wire.errors import WireError

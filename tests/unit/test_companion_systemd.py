@@ -14,7 +14,7 @@ from companion.cli.run import OUR_FAULT, run_service
 from companion.config import load_config
 from companion.drivers.tick import Tick
 from companion.service.jsonlog import Log
-from companion.service.run import Service
+from companion.service.loop import Service
 from companion.service.systemd import Systemd
 
 UNIT = Path("docs/deploy/companion.service")
