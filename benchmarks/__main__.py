@@ -10,6 +10,7 @@ from benchmarks import (
     bench_mazes,
     bench_physics,
     bench_planner,
+    bench_recorder,
     bench_replan,
     bench_rivals,
     bench_search,
@@ -36,6 +37,7 @@ def main() -> None:
     bench_vehicle.main()
     bench_tracking.main()
     bench_airframes.main()
+    bench_recorder.main()
 
 
 if __name__ == "__main__":

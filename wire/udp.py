@@ -30,13 +30,15 @@ MAX_DRAIN = 1024
 """Datagrams one `receive` takes at most, so that a flood cannot hold the caller."""
 
 _LINUX = sys.platform == "linux"
-_SO_TIMESTAMPNS = 35  # asm-generic/socket.h; the socket module has no name for these four
+_SO_TIMESTAMPNS = 35  # asm-generic/socket.h; the socket module has no name for most of these
 _SO_RXQ_OVFL = 40
+_SO_MEMINFO = 55
 _IP_RECVERR = 11  # linux/in.h
 _IPV6_RECVERR = 25  # linux/in6.h
 _MSG_ERRQUEUE = 0x2000
 _TIMESPEC = struct.Struct("@ll")
 _COUNT = struct.Struct("@I")
+_MEMINFO = struct.Struct("@9I")  # linux/sock_diag.h; the last is SK_MEMINFO_DROPS
 _ANCILLARY = socket.CMSG_SPACE(_TIMESPEC.size) + socket.CMSG_SPACE(_COUNT.size) if _LINUX else 0
 
 
@@ -59,8 +61,8 @@ class LinkCounters:
     send_errors : datagrams the kernel would not take (no route, buffer full).
     refused : ICMP "port unreachable" answers: nobody listens at a peer's address.
     handed : datagrams given to `send`, each counted once, however many peers (or none) were there to get it.
-    drops : datagrams the kernel threw away since the receive buffer was full; told with the next one that gets
-        through (Linux; 0 elsewhere).
+    drops : datagrams the kernel threw away since the receive buffer was full (Linux; 0 elsewhere; before 4.12 told
+        with the next one that gets through).
     """
 
     rx_datagrams: int = 0
@@ -153,6 +155,8 @@ class UdpLink:
     @property
     def counters(self) -> LinkCounters:
         """A snapshot of the counters."""
+        if _LINUX and self._socket.fileno() >= 0:
+            self._drops = max(self._drops, _drops_of(self._socket))
         return LinkCounters(
             rx_datagrams=self._rx_datagrams,
             rx_bytes=self._rx_bytes,
@@ -285,6 +289,15 @@ def _tune(udp: socket.socket) -> None:
         udp.setsockopt(socket.IPPROTO_IPV6, _IPV6_RECVERR, 1)
     else:
         udp.setsockopt(socket.IPPROTO_IP, _IP_RECVERR, 1)
+
+
+def _drops_of(udp: socket.socket) -> int:
+    """Datagrams the kernel has thrown away, from the socket itself; 0 where it cannot be asked."""
+    try:
+        info = udp.getsockopt(socket.SOL_SOCKET, _SO_MEMINFO, _MEMINFO.size)
+    except OSError:
+        return 0
+    return int(_MEMINFO.unpack(info)[-1]) if len(info) == _MEMINFO.size else 0
 
 
 def _source_for(family: socket.AddressFamily, peer: Address) -> str:
