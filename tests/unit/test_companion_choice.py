@@ -17,6 +17,8 @@ from tests.conftest import HOP
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
+MISSION, FENCE = mavlink.MAV_MISSION_TYPE_MISSION, mavlink.MAV_MISSION_TYPE_FENCE
+
 
 class Chosen:
     """An idle companion under a vehicle that stands there, and what it would fly."""
@@ -127,3 +129,28 @@ def test_after_a_flight_that_was_called_off_the_next_is_begun_by_a_person_and_la
     chosen.choice.flown(None)
     chosen.choice.look()
     assert chosen.idle.autostart
+
+
+def test_a_file_is_not_flown_past_a_fence_that_was_uploaded_until_that_is_cleared(file: Path) -> None:
+    chosen = Chosen(mission=file)
+    ours, station = (1, 191), mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
+
+    def upload(plan: int, *rows: tuple[Any, ...]) -> None:
+        items = [mavlink.MAVLink_mission_item_int_message(*ours, k, *row, plan) for k, row in enumerate(rows)]
+        for message in (mavlink.MAVLink_mission_count_message(*ours, len(rows), plan), *items):
+            datagram = Datagram("out0", bytes(message.pack(station)), ("gcs", 1))
+            chosen.idle.station.take(chosen.now_us, datagram, chosen.idle.obey)
+
+    circle = (0, mavlink.MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0, 1, 50, 0, 0, 0, 473977420, 85455940, 0)
+    upload(FENCE, circle)
+    assert "a fence was uploaded" in chosen.idle.obey(Order("start"))
+    assert not chosen.idle.over
+    chosen.idle.telemetry.global_e7 = (473977420, 85455940, 488000)
+    far = (3, mavlink.MAV_CMD_NAV_WAYPOINT, 0, 1, 0, 0, 0, 0, 473990000, 85455940, 5)
+    upload(MISSION, far)  # beyond the fence: neither it nor the file is flown
+    for _ in range(2):
+        assert "item 0: steps.1.goto: found a place" in chosen.idle.obey(Order("start"))
+    assert not chosen.idle.over
+    upload(MISSION)
+    upload(FENCE)
+    assert chosen.idle.obey(Order("start")) == ""
