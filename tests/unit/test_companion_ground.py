@@ -6,13 +6,15 @@ import random
 
 import pytest
 
+from companion.core import Companion, CompanionConfig
 from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.ground.progress import Course
 from companion.ground.protocol import REPEAT_US, TRIES
 from companion.ground.station import GroundStation, plan_file
-from companion.missionfile import parse_mission
+from companion.missionfile import load_mission, parse_mission
 from companion.phases import Phase
+from companion.seam import Order
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -483,6 +485,10 @@ def test_a_start_is_never_the_word_that_takes_the_vehicle_back_from_a_pilot():
         mavlink.MAV_CMD_MISSION_START, obey=lambda order: given.append(order.name) or "not while handed over"
     )
     assert (given, ack.result) == (["start"], mavlink.MAV_RESULT_DENIED)
+    companion = Companion(load_mission("missions/hop.yaml"), CompanionConfig())
+    companion.phase = Phase.HANDED_OVER
+    assert companion.obey(0, Order("start")) == "not while handed over"
+    assert companion.obey(0, Order("resume")) == ""
 
 
 @pytest.mark.parametrize(
