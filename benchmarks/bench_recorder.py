@@ -32,14 +32,15 @@ from wire.endpoint import Endpoint
 from wire.udp import UdpLink, wait
 
 TICK_S = 0.02
+PACKETS = 4096
 
 
 def packets() -> list[bytes]:
-    """Traffic of a vehicle: what it says most often, each with every sequence number."""
+    """Traffic of a vehicle: what it says most often, no two of them the same."""
     found = []
-    for sequence in range(256):
+    for sequence in range(PACKETS):
         mav = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
-        mav.seq = sequence
+        mav.seq = sequence & 0xFF
         t, f = sequence * 37 + 123_456, [0.1 * sequence + k for k in range(12)]
         messages = (
             mavlink.MAVLink_attitude_message(t, *f[:6]),
@@ -65,7 +66,7 @@ def send(port: int, rate: int, seconds: float) -> None:
     while (now := time.monotonic() - start) < seconds:
         due = int(now * rate)
         while sent < due:
-            link.send(traffic[sent & 0xFF])
+            link.send(traffic[sent % PACKETS])
             sent += 1
         time.sleep(max(0.0, 0.002 - (time.monotonic() - start - now)))
     print(sent, flush=True)
@@ -225,7 +226,7 @@ def row(m: Measured, rate: int, seconds: float) -> tuple[str, ...]:
 
 def main() -> None:
     full = "--full" in sys.argv
-    size = sum(map(len, packets())) / 256
+    size = sum(map(len, packets())) / PACKETS
     print(f"\n## Recording ({os.cpu_count()} cores; datagrams of {size:.0f} bytes)\n")
     print(f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}")
     for name, open_, rate, seconds in (

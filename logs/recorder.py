@@ -363,10 +363,8 @@ class Recorder:
         framer = self._framers.get((link, direction))
         if framer is None:
             framer = self._framers[link, direction] = Framer()
-        known = self._channels.packets
-        for packet in framer.packets(data):
-            if again:
-                continue
+        packets, known, decoded = framer.packets(data), self._channels.packets, 0
+        for packet in packets if not again else ():
             key = packet.message_id << 16 | packet.system_id << 8 | packet.component_id
             target = known.get(key)
             if target is None:
@@ -380,7 +378,8 @@ class Recorder:
                 self._dropped_decoded += 1
                 continue
             add(target[0], tick, log_ns, publish_ns, target[1](packet.payload))
-            self._counts["decoded"][""] += 1
+            decoded += 1
+        self._counts["decoded"][""] += decoded
 
     def _message(self, item: _Message) -> None:
         log_ns, now_us, tick, topic, message = item
