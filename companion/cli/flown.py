@@ -132,10 +132,12 @@ def _open(endpoints: Mapping[str, Endpoint]) -> Iterator[dict[str, UdpLink]]:
 
 def _warm(mission: Mission, planning: WorkerPlanning, operator: Operator, out: Console) -> bool:
     """Wait for the worker's kernels and load what this process needs of them; False when the operator gave up."""
-    with show.working(out, "preparing kernels (compiled the first time)"):
+    began_s = time.monotonic()
+    with show.waiting(out, "preparing kernels (compiled the first time, in about a minute)") as so_far:
         while not planning.warmed():
             if operator.asked:
                 return False
+            so_far(time.monotonic() - began_s)
             time.sleep(0.05)
         mission.planner_world().distance(np.zeros((1, 3)))
     return not operator.asked

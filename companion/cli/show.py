@@ -3,7 +3,7 @@
 import json
 import math
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
@@ -18,6 +18,8 @@ from companion.phases import STREAMING, Phase
 from companion.seam import Level, Note
 from companion.verdict import FlightMeter, Verdict
 
+TELL_S = 10.0
+"""Between two words that something goes on, where there is no spinner [s]."""
 STYLES = {Level.ERROR: "bold red", Level.WARNING: "yellow", Level.INFO: "dim"}
 
 
@@ -35,6 +37,26 @@ def working(out: Console, what: str) -> Iterator[Status | None]:
     else:
         out.print(what)
         yield None
+
+
+@contextmanager
+def waiting(out: Console, what: str) -> Iterator[Callable[[float], None]]:
+    """`working` on what may take long: to be told how long it has taken [s], for people to see that it goes on.
+
+    On the spinner every time, elsewhere a line every `TELL_S`.
+    """
+    told_s = 0.0
+
+    def so_far(seconds: float) -> None:
+        nonlocal told_s
+        if status is not None:
+            status.update(f"{what}: {seconds:.0f} s")
+        elif seconds >= told_s + TELL_S:
+            told_s = seconds
+            out.print(f"{what}: {seconds:.0f} s")
+
+    with working(out, what) as status:
+        yield so_far
 
 
 class ProgressLine:

@@ -91,7 +91,7 @@ class WorkerPlanning:
 
     def __init__(self, world: World, replans: bool = False, hung_s: float | None = None) -> None:
         self._plans = Worker(world, answer, replans, hung_s)
-        self._again = Worker(world, answer, replans, hung_s) if replans else self._plans
+        self._again = Worker(world, answer, replans, hung_s, after=self._plans) if replans else self._plans
         self.workers = [self._plans, self._again] if replans else [self._plans]
 
     def warmed(self) -> bool:

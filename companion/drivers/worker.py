@@ -29,6 +29,8 @@ PLAN_S, REPLAN_S = 60.0, 5.0
 """A process that has not answered for so long hangs [s]."""
 WARM_S = 600.0
 """Compiling may take so long [s]."""
+AFTER_S = 0.05
+"""How often a worker looks whether the one before it has compiled the kernels [s]."""
 LOOK_S = 0.5
 """How often an idle process is looked after [s]."""
 
@@ -40,6 +42,7 @@ class Worker:
     answer : makes a plan; a function of a module.
     replans : whether the kernels for planning in flight are compiled too.
     hung_s : how long an answer may take [s], whatever the question; None: `PLAN_S`, `REPLAN_S`.
+    after : one that compiles the same kernels: they are compiled once, and this one begins when they are.
 
     Attributes
     ----------
@@ -55,10 +58,11 @@ class Worker:
         answer: Callable[[World, PlanWanted], PlanReady],
         replans: bool = False,
         hung_s: float | None = None,
+        after: "Worker | None" = None,
     ) -> None:
         self.warm, self.fault, self.starts, self.dropped = False, "", 0, 0
         self._args = (world, answer, replans)
-        self._hung_s = hung_s
+        self._hung_s, self._after = hung_s, after
         self._waiting: list[Question] = []
         self._answers: deque[Answer] = deque()
         self._change = threading.Condition()
@@ -103,6 +107,9 @@ class Worker:
     def _run(self) -> None:
         spawn = get_context("spawn")
         why = ""
+        with self._change:
+            while self._after is not None and not (self._closed or self._after.warm or self._after.fault):
+                self._change.wait(AFTER_S)
         while not self._closed and not self.fault and self.starts <= RESTARTS:
             ours, theirs = spawn.Pipe()
             process = spawn.Process(target=_work, args=(theirs, *self._args), daemon=True)

@@ -102,3 +102,27 @@ def test_of_questions_about_what_is_flown_only_the_newest_waits():
         assert process.dropped == 99
     finally:
         process.close()
+
+
+def test_a_worker_whose_kernels_another_compiles_begins_when_they_are_there():
+    class Compiling:
+        warm, fault = False, ""
+
+    first = Compiling()
+    process = Worker(WORLD, answers_slowly, after=first)  # type: ignore[arg-type]
+    try:
+        time.sleep(0.5)
+        assert process.pid is None
+        first.warm = True
+        until(lambda: process.warm)
+    finally:
+        process.close()
+
+
+def test_a_worker_that_waits_for_another_ends_when_it_is_closed():
+    class Compiling:
+        warm, fault = False, ""
+
+    process = Worker(WORLD, answers_slowly, after=Compiling())  # type: ignore[arg-type]
+    process.close()
+    assert process.starts == 0
