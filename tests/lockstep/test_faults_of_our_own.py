@@ -1,6 +1,7 @@
 """Exceptions of ours in flight: what only looks on is left out, and a core that has failed leaves a landing behind."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,6 +13,8 @@ from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import Pair
 from companion.drivers.planning import InlinePlanning
 from companion.drivers.realtime import Pace
+from companion.drivers.recording import RecordingTap, header
+from companion.drivers.rerun import rerun
 from companion.drivers.tick import Tap, Tick
 from companion.lastresort import LastResort
 from companion.missionfile import parse_mission
@@ -19,6 +22,8 @@ from companion.phases import Phase
 from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter, judge
 from fakevehicle.config import Autopilot
+from logs.reader import Recording
+from logs.recorder import Recorder
 from tests.conftest import HOP
 from wire.datagram import Datagram
 from wire.dialect import mavlink
@@ -176,6 +181,23 @@ def test_a_recorder_or_a_page_that_fails_is_left_out_and_the_mission_is_flown_to
     assert "page failed and is left out: KeyError: 'no such card'" in text
     assert "in page" in trace
     assert bench.companion.failure == text
+
+
+def test_the_recording_of_a_flight_with_a_fault_of_our_own_leads_to_the_tick_that_failed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    bench, file = Bench("px4", monkeypatch), tmp_path / "fault.mcap"
+    bench.fall(Phase.FLYING)
+    with Recorder(file, threaded=False, **header(bench.companion, LONG.encode())) as recorder:
+        bench.fly(RecordingTap(bench.companion, recorder))
+    fatal = next(t for t in bench.ticks if any(b"companion failed" in getattr(o, "data", b"") for o in t.outputs))
+    again = rerun(Recording(file))  # there the fault is not: it was put in from outside
+    assert again.comparison.first is not None
+    assert again.comparison.first.tick == fatal.index - 1
+    before = bench.ticks[fatal.index - 1]
+    assert (before.index, before.outputs) == (fatal.index - 1, [])
+    assert before.inputs
+    assert again.ticks == len(bench.ticks)
 
 
 def test_a_last_resort_gives_up_a_vehicle_that_is_not_heard_for_a_minute() -> None:
