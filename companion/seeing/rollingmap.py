@@ -203,6 +203,16 @@ class RollingMap:
         self.low[a, b] = self.high[a, b] = 0
         self.version += len(a) > 0
 
+    def forget_around(self, places: FloatArray, radius: float, since_us: int) -> None:
+        """Forget cells within a radius [m] of places (m, 2) that were hit since a time: it was something that moves."""
+        a, b = np.nonzero((self.high > self.low) & (self._stamp >= since_us))
+        if not len(a):
+            return
+        middle = (np.column_stack(self._cells(a, b)) + 0.5) * self.resolution
+        near = (((middle[:, None, :] - places[None]) ** 2).sum(axis=2) <= radius**2).any(axis=1)
+        self.low[a[near], b[near]] = self.high[a[near], b[near]] = 0
+        self.version += bool(near.any())
+
     def shift(self) -> None:
         """Forget everything: the frame has moved under the map."""
         self.low[:] = self.high[:] = 0

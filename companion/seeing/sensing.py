@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from companion.seam import FloatArray
 from wire.dialect import mavlink
@@ -46,6 +47,15 @@ class Scan:
     directions: FloatArray
     distance: FloatArray
     maximum: float
+
+
+def without(scan: Scan, rays: NDArray[np.int64]) -> Scan:
+    """The same, with nothing known of some rays (by their numbers)."""
+    if not len(rays):
+        return scan
+    distance = scan.distance.copy()
+    distance[rays] = math.nan
+    return Scan(scan.stamp_us, scan.position_m, scan.directions, distance, scan.maximum)
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> FloatArray:

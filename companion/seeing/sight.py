@@ -11,14 +11,16 @@ from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from companion.fields import boot_ms
 from companion.geodesy import Geodetic, to_local
 from companion.hooks import Pose
 from companion.mission import Mission, Sensing
 from companion.seam import FloatArray, Vector
+from companion.seeing.following import SEEN, Following
 from companion.seeing.rollingmap import RollingMap
-from companion.seeing.sensing import POINT, RANGE, RING, Scan, rotation, scan_of, stamp_of
+from companion.seeing.sensing import POINT, RANGE, RING, rotation, scan_of, stamp_of, without
 from companion.seeing.tracks import Tracks
 from wire.dialect import mavlink
 from wire.framing import Packet
@@ -95,6 +97,7 @@ class Sight:
         column = math.inf if sensing.column == "full" else float(sensing.column)
         self.map = RollingMap(sensing.resolution, (top, bottom), column)
         self.tracks = Tracks()
+        self._following = Following(self.tracks, self.map, sensing.mover_radius)
         self.scans = 0
         self.jumped = False
         self._looks = sensing.use
@@ -121,6 +124,7 @@ class Sight:
         self._poses.clear()
         self._newest_ms.clear()
         self._anchor = None
+        self._following.forget()
         self.map.shift()
 
     def take(self, packet: Packet, pose: Pose) -> bool:
@@ -180,6 +184,7 @@ class Sight:
             if 0.0 <= passed < 0.5 and math.dist(meant, pose.position_m) > JUMP:
                 poses.clear()
                 self._anchor = None
+                self._following.forget()
                 self.map.shift()
                 self.jumped = True
         if poses and poses[-1].boot_ms == ms:
@@ -194,35 +199,32 @@ class Sight:
         if not self._poses:
             return False
         ms, newest = stamp_of(packet.message_id, packet.payload) // 1000, self._poses[-1]
-        known = abs(ms - newest.boot_ms) <= LATEST_MS  # else its clock is another
-        at, ms = (self._near(ms), ms) if known else (newest, newest.placed_ms)
+        in_time = abs(ms - newest.boot_ms) <= LATEST_MS  # else its clock is another
+        at, ms = (self._near(ms), ms) if in_time else (newest, newest.placed_ms)
         pose, where = at.pose, at.position_m(ms, CARRIED_MS)
         if not np.isfinite(where).all():
             return False
         scan = scan_of(packet.message_id, packet.payload, where, rotation(pose.roll, pose.pitch, pose.yaw))
         if scan is None:
             return False
-        self.map.add(flight_us, self._unknown(flight_us, scan))
+        hit = np.flatnonzero(np.isfinite(scan.distance))
+        points = scan.position_m + scan.directions[hit] * scan.distance[hit, None]
+        known = self._is_known(points)
+        if packet.message_id == RING:
+            told = known | self.tracks.near(flight_us, points, below=SEEN)
+            late_us = 1000 * (newest.boot_ms - ms) if in_time else 0
+            self._following.look(flight_us - late_us, scan, without(scan, hit[told]).distance)
+        self.map.add(flight_us, without(scan, hit[known | self.tracks.near(flight_us, points)]))
         self.map.here(self._poses[-1].pose.position_m, self._hull)
         self.scans += 1
         return True
 
-    def _unknown(self, flight_us: int, scan: Scan) -> Scan:
-        """The scan, its hits on the ground, on known solids and on movers not known."""
-        hit = np.flatnonzero(np.isfinite(scan.distance))
-        if not len(hit):
-            return scan
-        points = scan.position_m + scan.directions[hit] * scan.distance[hit, None]
-        known = points[:, 2] > self._ground_z
-        if self._world is not None:
+    def _is_known(self, points: FloatArray) -> NDArray[np.bool_]:
+        """Which of points (m, 3) are of the ground, or of solids that the mission tells of."""
+        known: NDArray[np.bool_] = points[:, 2] > self._ground_z
+        if self._world is not None and len(points):
             known |= self._world.distance(points) < KNOWN
-        if len(self.tracks):
-            known |= self.tracks.near(flight_us, points)
-        if not known.any():
-            return scan
-        distance = scan.distance.copy()
-        distance[hit[known]] = math.nan
-        return Scan(scan.stamp_us, scan.position_m, scan.directions, distance, scan.maximum)
+        return known
 
     def _anchor_at(self, payload: bytes) -> None:
         """Where the mission frame is on earth: where a GLOBAL_POSITION_INT and a pose of about that time say it is.

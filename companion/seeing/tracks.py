@@ -6,6 +6,9 @@ it has been silent for `SILENCE_S`.
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from companion.seam import FloatArray, Vector
 from planner import MovingSphere
 
@@ -57,14 +60,15 @@ class Tracks:
             for _, t in sorted(self._tracks.items())
         )
 
-    def near(self, flight_us: int, points: FloatArray) -> list[bool]:
-        """Which of points (m, 3) may be of a mover."""
-        mine = [False] * len(points)
-        for track in self._tracks.values():
+    def near(self, flight_us: int, points: FloatArray, below: int = 1 << 32) -> NDArray[np.bool_]:
+        """Which of points (m, 3) may be of a mover whose address is below a number."""
+        mine = np.zeros(len(points), dtype=np.bool_)
+        for address, track in self._tracks.items():
+            if address >= below:
+                continue
             age = (flight_us - track.seen_us) / 1e6
             centre = [p + v * age for p, v in zip(track.position_m, track.velocity, strict=True)]
-            apart = ((points - centre) ** 2).sum(axis=1) <= (track.radius + NEAR + GROWTH * age) ** 2
-            mine = [a or bool(b) for a, b in zip(mine, apart, strict=True)]
+            mine |= ((points - centre) ** 2).sum(axis=1) <= (track.radius + NEAR + GROWTH * age) ** 2
         return mine
 
     def __len__(self) -> int:
