@@ -131,12 +131,7 @@ def _failsafe(w: Watch) -> str:
 
 
 def _pilot_unknown(w: Watch) -> str:
-    if w.silent_s >= HEARD_S:
-        return ""
-    if w.mode_s > SILENT_S and w.error_m > ADRIFT_M and w.position_s <= POSITION_HOLD_S:
-        away = f"it is {w.error_m:.1f} m from its reference"
-        return f"no HEARTBEAT from the vehicle for {SILENT_S:g} s, and {away}: a pilot may fly it; it is not fought for"
-    if w.mode_s <= MODE_S:
+    if w.mode_s <= MODE_S or w.silent_s >= HEARD_S:
         return ""
     return f"no HEARTBEAT from the vehicle for {MODE_S:g} s: who flies it is not known; it is not fought for"
 
@@ -163,8 +158,8 @@ def _no_estimate(w: Watch) -> str:
 
 
 def _astray(w: Watch) -> str:
-    if w.error_m <= ASTRAY_M or w.position_s > POSITION_HOLD_S:
-        return ""
+    if w.error_m <= ASTRAY_M or w.position_s > POSITION_HOLD_S or w.mode_s > HEARTBEAT_S:
+        return ""  # untold it may be a pilot's
     return f"the vehicle is {w.error_m:.1f} m from its reference for 1 s: landing"
 
 
@@ -186,7 +181,8 @@ def _takeoff_late(w: Watch) -> str:
 
 
 def _rejoin_late(w: Watch) -> str:
-    return f"no way back to the mission in {REJOIN_S:g} s: landing" if w.phase_s > REJOIN_S else ""
+    late = w.phase_s > REJOIN_S and w.mode_s <= HEARTBEAT_S
+    return f"no way back to the mission in {REJOIN_S:g} s: landing" if late else ""
 
 
 def _battery_critical(w: Watch) -> str:
