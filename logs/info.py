@@ -34,7 +34,7 @@ class RecordingInfo:
 
     Attributes
     ----------
-    size_bytes, parts : of all files of the recording together.
+    size_bytes, parts : of all files of the recording together; gaps : what is missing between them.
     complete, problem : whether the file was closed properly, and if not, what is wrong.
     start_ns, end_ns, duration_s : first and last log time [ns], and between them [s].
     topics : by name; links : in order of first appearance.
@@ -44,6 +44,7 @@ class RecordingInfo:
     path: Path
     size_bytes: int
     parts: int
+    gaps: tuple[str, ...]
     complete: bool
     problem: str
     library: str
@@ -89,6 +90,7 @@ def info(path: Path) -> RecordingInfo:
         path=path,
         size_bytes=sum(part.stat().st_size for part in recording.paths),
         parts=len(recording.paths),
+        gaps=recording.gaps,
         complete=recording.complete,
         problem=recording.problem,
         library=recording.library,

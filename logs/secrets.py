@@ -44,5 +44,10 @@ def masked(data: bytes) -> bytes:
     return data if out is None else bytes(out)
 
 
+def carries_key(data: bytes) -> bool:
+    """Whether a datagram holds what looks like SETUP_SIGNING, its key masked or not: not for anybody's ears."""
+    return _NUMBER in data and _PACKET.search(data) is not None
+
+
 def _checksum(body: bytes) -> bytes:
     return crc16.mcrf4xx(_EXTRA, crc16.mcrf4xx(body)).to_bytes(2, "little")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
+from logs.secrets import carries_key
 from wire.dialect import mavlink
 from wire.framing import Framer
 
@@ -45,8 +46,9 @@ def vehicle_link(recording: Recording) -> str:
 
 
 def vehicle_traffic(recording: Recording, link: str) -> Iterator[RecordedMessage]:
-    """The datagrams received on a link, in order; nothing that was sent."""
-    return recording.messages(topics=(f"/mavlink/raw/{link}/rx",))
+    """The datagrams received on a link, in order; nothing that was sent, and no SETUP_SIGNING (`logs.secrets`)."""
+    messages = recording.messages(topics=(f"/mavlink/raw/{link}/rx",))
+    return (message for message in messages if not carries_key(message.data))
 
 
 def paced(messages: Iterable[RecordedMessage], rate: float = 1.0) -> Iterator[Due]:

@@ -71,6 +71,8 @@ def _json(found: RecordingInfo) -> dict[str, object]:
         "ok": True,
         "path": str(found.path),
         "size_bytes": found.size_bytes,
+        "parts": found.parts,
+        "gaps": list(found.gaps),
         "complete": found.complete,
         "problem": found.problem,
         "library": found.library,
@@ -86,7 +88,8 @@ def _json(found: RecordingInfo) -> dict[str, object]:
 
 def _print(found: RecordingInfo, out: Console) -> None:
     state = "complete" if found.complete else f"[yellow]not complete: {found.problem}[/yellow]"
-    about = f"{found.size_bytes / 1e6:.2f} MB, {found.duration_s:.2f} s, {state}"
+    parts = f" in {found.parts} parts" if found.parts > 1 else ""
+    about = f"{found.size_bytes / 1e6:.2f} MB{parts}, {found.duration_s:.2f} s, {state}"
     out.print(f"[bold]{found.path}[/bold]  {about}", soft_wrap=True)
     out.print(f"{found.messages} messages, written by {found.library}")
     for name, size in found.attachments.items():

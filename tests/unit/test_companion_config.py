@@ -6,6 +6,7 @@ import pytest
 
 from companion.config import load_config
 from companion.errors import ConfigError
+from logs.parts import Rotation
 
 FULL = """\
 master: udpin:0.0.0.0:14540
@@ -15,6 +16,7 @@ mission: hop.yaml
 autostart: true
 record: /var/lib/companion
 record_max_mb: 500
+rotate_mb: 64
 http: 127.0.0.1:9000
 system_id: 3
 seed: 7
@@ -40,6 +42,7 @@ def test_a_file_says_everything_and_its_paths_are_relative_to_it(tmp_path: Path)
     assert config.page() == ("127.0.0.1", 9000)
     assert [str(end) for end in config.endpoints().values()] == ["udpin:127.0.0.1:14550", "udpout:10.0.0.2:14550"]
     assert (config.system_id, config.seed, config.log, config.record_max_mb) == (3, 7, "text", 500)
+    assert config.rotation() == Rotation(size_bytes=64_000_000)
     assert config.fleet is not None
     assert config.fleet.number == 2
     assert [*config.sensor_endpoints(), *config.fleet_endpoints()] == ["sensor0", "fleet", "fleet0"]
@@ -54,6 +57,8 @@ def test_the_environment_alone_is_enough() -> None:
     config = load_config(None, environment)
     assert (config.master, config.out) == ("udpout:127.0.0.1:14540", ["udpin:14550", "udpin:14551"])
     assert not config.autostart
+    assert config.rotation() is None
+    assert load_config(None, environment | {"COMPANION_ROTATE_S": "600"}).rotation() == Rotation(seconds=600)
 
 
 def test_the_environment_goes_over_the_file(tmp_path: Path) -> None:

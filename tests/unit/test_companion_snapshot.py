@@ -24,6 +24,7 @@ from companion.service.queue import Missions, make_room, recording_file
 from companion.service.snapshot import flight_state, idle_state, vehicle_state
 from companion.vehiclelink import VEHICLE_LINK
 from companion.verdict import FlightMeter
+from logs.parts import part_path
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 
@@ -301,6 +302,9 @@ def test_the_oldest_of_our_recordings_make_room_and_other_files_stay(tmp_path: P
     for age, file in enumerate(files):
         file.write_bytes(bytes(600_000))
         os.utime(file, (1e9 + age, 1e9 + age))
+    part = part_path(files[0], 2)
+    part.write_bytes(bytes(10))
+    os.utime(part, (1e9 + 0.5, 1e9 + 0.5))
     (tmp_path / "mine.mcap").write_bytes(bytes(5_000_000))
-    assert make_room(tmp_path, 1.0) == files[:2]
+    assert make_room(tmp_path, 1.0) == [files[0], part, files[1]]
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted([files[2].name, "mine.mcap"])

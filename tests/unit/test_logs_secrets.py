@@ -9,6 +9,7 @@ from logs import Recording, schema, ticks
 from logs.recorder import Recorder
 from logs.secrets import masked
 from logs.table import inputs_digest
+from logs.wire_replay import vehicle_traffic
 from wire.datagram import Datagram
 from wire.dialect import mavlink
 from wire.framing import Framer
@@ -50,6 +51,15 @@ def test_the_key_is_in_no_byte_of_the_file_and_the_packet_is_still_one(tmp_path:
     for row in ticks(recording):
         assert row.declared is not None
         assert inputs_digest([entry for _, entry in row.inputs]) == row.declared.inputs_crc32
+
+
+def test_a_masked_packet_is_never_replayed_to_anybody(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    with Recorder(path, metadata={}, threaded=False) as recorder:
+        for tick, data in enumerate([heartbeat(), setup_signing(), heartbeat(sequence=1), setup_signing()[:30]]):
+            recorder.datagram("autopilot", "rx", data, log_time_ns=tick, now_us=tick, tick=tick)
+    replayed = [message.data for message in vehicle_traffic(Recording.open(path), "autopilot")]
+    assert replayed == [heartbeat(), heartbeat(sequence=1)]
 
 
 @pytest.mark.parametrize("cut", range(11, 66))
