@@ -15,8 +15,8 @@ help:            ## show this
 demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
 	$(BIN)/companion demo
 
-test: $(STAMP)   ## every test, but for those of `make soak`
-	$(BIN)/python -m pytest -q -m "not soak"
+test: $(STAMP)   ## every test, but for those of `make soak`; JOBS=2: in two processes
+	$(BIN)/python -m pytest -q -m "not soak" $(if $(JOBS),-n $(JOBS) --dist loadgroup)
 
 soak: $(STAMP)   ## tests that are judged by the clock, or long: want a machine of their own
 	$(BIN)/python -m pytest -q -m soak

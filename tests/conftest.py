@@ -34,6 +34,17 @@ steps:
 """The smallest mission worth flying: about 15 s."""
 
 
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Where tests run in several processes: those in real time one after another, a file's others in one process."""
+    if not config.pluginmanager.hasplugin("xdist"):
+        return
+    for item in items:
+        in_real_time = item.get_closest_marker("udp") is not None
+        folder = item.path.parent.name
+        group = "real time" if in_real_time else folder if folder == "pages" else str(item.path)
+        item.add_marker(pytest.mark.xdist_group(group))
+
+
 @dataclass
 class Flight:
     """A flight that is over, and everything that crossed the seam in it."""
