@@ -118,7 +118,8 @@ def test_a_lost_connection_is_said_plainly_and_mended_by_itself(live: Page, serv
     server.send(moment(0))
     live.until(f"{PAGE}.scene.path.length === 1")
     server.stop()
-    assert "connection lost" in live.until("document.querySelector('.link-badge.lost')?.textContent")
+    live.until("!!document.querySelector('.link-badge.lost')")
+    assert "Connection lost" in live.js("document.querySelector('.lost-notice:not([hidden])').textContent")
     assert live.js("document.querySelector('[data-order=land]').disabled")
     server.start()
     live.until("companionPage.link.state === 'connected'")
@@ -131,7 +132,8 @@ def test_a_lost_connection_is_said_plainly_and_mended_by_itself(live: Page, serv
 
 def test_silence_on_a_standing_connection_is_said(live: Page, server: LiveServer):
     server.send(moment(0))
-    assert "silent for" in live.until("document.querySelector('.link-badge.silent')?.textContent")
+    live.until("!!document.querySelector('.link-badge.silent')")
+    assert "Nothing heard for" in live.js("document.querySelector('.lost-notice:not([hidden])').textContent")
     server.send(moment(1))
     live.until("document.querySelector('.link-badge').textContent === 'live'")
 

@@ -85,6 +85,8 @@ export class Link {
 export class LivePanel {
   readonly element: HTMLElement;
   readonly badge = h("span.link-badge.connecting", { role: "status", "aria-live": "polite" }, "connecting");
+  /** Over the scene: that what is seen is old. */
+  readonly notice = h("p.lost-notice", { role: "alert", hidden: true });
   private readonly toast = h("p.toast", { role: "status", "aria-live": "polite", hidden: true });
   private readonly goalBar = h("form.goal-bar", { hidden: true });
   private readonly follow: HTMLElement;
@@ -116,8 +118,10 @@ export class LivePanel {
 
   show(link: LinkState, heard: number): void {
     const silent = (performance.now() - heard) / 1000;
-    const text = { connecting: "connecting", connected: "live", silent: `silent for ${silent.toFixed(0)} s`, lost: heard ? `connection lost ${silent.toFixed(0)} s ago, trying again` : "no connection, trying again" }[link];
-    this.badge.textContent = text;
+    const ago = heard ? ` ${silent.toFixed(0)} s ago` : "";
+    this.badge.textContent = { connecting: "connecting", connected: "live", silent: "silent", lost: "lost" }[link];
+    this.notice.textContent = link === "lost" ? `Connection lost${ago}, trying again. What you see is old.` : `Nothing heard for ${silent.toFixed(0)} s. What you see is old.`;
+    this.notice.hidden = link !== "lost" && link !== "silent";
     this.badge.className = `link-badge ${link}`;
     document.body.classList.toggle("link-lost", link === "lost" || link === "silent");
     for (const b of this.buttons) b.disabled = link !== "connected" && link !== "silent";

@@ -40,7 +40,7 @@ class Page {
     const events: EventJson[] = [...data.events];
     this.plots = new Plots(state);
     this.scene = new FlightScene(data.scene, state, !!live);
-    const low = Math.min(0, this.scene.firstTime()), high = Math.max(data.header.duration_s || 0, this.scene.lastTime(), ...events.slice(-1).map((e) => e.t), low + 1e-3);
+    const low = Math.min(0, this.scene.firstTime()), high = Math.max(live ? 0 : data.header.duration_s || 0, this.scene.lastTime(), ...events.slice(-1).map((e) => e.t), low + 1e-3);
     state.full = [low, high];
     state.range = [low, high];
     state.cursor = live ? high : startOf(data, low);
@@ -58,7 +58,7 @@ class Page {
         h("button.round", { type: "button", title: "keys (?)", "aria-label": "help", onclick: help.open }, "?")),
       h("main",
         h("div.workspace",
-          h("aside.stage", h("section.stage-card", { id: "scene", "aria-label": "scene" }, this.scene.element, this.scene.below, transport.element, live?.element ?? null)),
+          h("aside.stage", h("section.stage-card", { id: "scene", "aria-label": "scene" }, this.scene.element, live?.notice ?? null, this.scene.below, transport.element, live?.element ?? null)),
           this.column)));
     this.fill();
     this.title(data.header);

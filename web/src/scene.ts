@@ -1,8 +1,8 @@
 /** The flight in space: what is drawn when, the cameras, and what a pointer does in it. */
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, Euler, Group, HemisphereLight, Line, LineBasicMaterial, MOUSE, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D, OrthographicCamera,
-  PerspectiveCamera, Plane, Raycaster, RingGeometry, Scene as Stage, SphereGeometry, Vector2, Vector3, WebGLRenderer, Color, SRGBColorSpace, DoubleSide,
+  AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, Euler, Group, HemisphereLight, Line, LineBasicMaterial, MOUSE, Mesh, Object3D, OrthographicCamera,
+  PerspectiveCamera, Plane, Raycaster, RingGeometry, Scene as Stage, SphereGeometry, Vector2, Vector3, WebGLRenderer, Color, SRGBColorSpace,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
@@ -12,7 +12,7 @@ import { decode, Track, type MoverJson, type PlanJson, type Point, type SceneJso
 import { colour, h, svg } from "./dom";
 import { clock, fixed, number } from "./format";
 import { RAMP_CSS, ramp, roundUp } from "./ramp";
-import { boundsFrame, dispose, fenceCurtain, ground, obstacle, segments, toThree, vehicle, VEHICLE_SPAN, type Ground } from "./solids";
+import { boundsFrame, dispose, fenceCurtain, glowing, ground, obstacle, segments, solid, toThree, vehicle, VEHICLE_SPAN, type Ground } from "./solids";
 import type { State } from "./state";
 
 const MOST_VERTICES = 6000;
@@ -70,8 +70,13 @@ export class FlightScene {
   private waiting = false;
   private side = 0;
   private sized = false;
+  private soft = false;
+  private moving3d = false; // drawn coarsely, since more frames are coming
+  private late = 0; // how late frames come, smoothed [ms]
+  private settling = 0;
   private pose: Record<string, number> | null = null;
-  private lastRebuild = 0;
+  private rebuildSoon = 0;
+  private layersShown = "";
 
   constructor(json: SceneJson, private readonly state: State, private readonly live: boolean) {
     this.json = json;
@@ -79,7 +84,9 @@ export class FlightScene {
     this.compass = svg("svg", { viewBox: "-28 -28 56 56", width: 56, height: 56, class: "compass" }, svg("circle", { r: 26, class: "dial" }), this.needle);
     let renderer: WebGLRenderer | null = null;
     try {
-      renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+      this.soft = drawnInSoftware();
+      renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !this.soft, alpha: true, preserveDrawingBuffer: true });
+      renderer.debug.checkShaderErrors = false; // asking for them stalls the first frame
     } catch {
       // no WebGL: the rest of the page stands without it
     }
@@ -153,10 +160,13 @@ export class FlightScene {
       } else for (const name of ["t", "n", "e", "u"] as const) known.track[name].push(decode(mover[name]).view());
     }
     if (fresh) this.rebuildMovers();
-    const now = performance.now();
-    if ((more.path || more.truth || more.reference) && now - this.lastRebuild > 250) {
-      this.lastRebuild = now;
-      this.rebuildPath();
+    if ((more.path || more.truth || more.reference) && !this.rebuildSoon) {
+      this.rebuildSoon = window.setTimeout(() => {
+        this.rebuildSoon = 0;
+        this.rebuildPath();
+        this.fillLayerBar();
+        this.moveCursor();
+      }, 250);
     }
     this.moveCursor();
   }
@@ -245,7 +255,7 @@ export class FlightScene {
     if (least) {
       const at = toThree(least.at);
       const size = Math.max(0.12, this.reach / 160);
-      const ball = new Mesh(new SphereGeometry(size, 20, 14), new MeshBasicMaterial({ color: colour("warn") }));
+      const ball = new Mesh(new SphereGeometry(size, 20, 14), glowing("warn"));
       ball.position.copy(at);
       mark.add(ball, segments([at.x, floor.level, at.z, at.x, at.y, at.z], "warn", 0.7));
       const tag = this.tag(`${number(least.clearance, 3)} m clear`, at, "least", "least");
@@ -284,7 +294,7 @@ export class FlightScene {
         else c.copy(neutral);
         colours.set([c.r, c.g, c.b], 3 * k);
       });
-      flown.add(fat(positions, { linewidth: 4, vertexColors: true }, colours));
+      flown.add(fat(positions, colours, 4));
       const ends = this.path.length - 1;
       const start = toThree([this.path.n.at(0), this.path.e.at(0), this.path.u.at(0)]), end = toThree([this.path.n.at(ends), this.path.e.at(ends), this.path.u.at(ends)]);
       this.tags = this.tags.filter((t) => t.layer !== "path" || (t.element.remove(), false));
@@ -294,9 +304,8 @@ export class FlightScene {
     for (const [track, group, tone, dashed] of [[this.reference, reference, "ink-2", true], [this.truth, truth, "s2", false]] as const) {
       const kept = thin(track, this.reach);
       if (kept.length < 2) continue;
-      group.add(fat(flat3(track, kept), {
-        color: new Color(colour(tone)).getHex(), linewidth: 1.6, dashed, dashSize: this.reach / 120, gapSize: this.reach / 160, transparent: true, opacity: 0.8,
-      }));
+      const dash = dashed ? this.reach / 120 : 0;
+      group.add(fat(flat3(track, kept), colour(tone), 1.6, 0.8, dash));
     }
     this.drawn.vertices = this.kept.length;
     this.ends.replaceChildren(h("span", "0"), h("span", `${this.colourBy === "time" ? clock(high, 0) : number(high)}${unit}`));
@@ -323,7 +332,8 @@ export class FlightScene {
     return { values, high: roundUp(sorted[Math.floor(0.99 * (sorted.length - 1))] ?? 1), unit };
   }
 
-  private speedAt(t: number): number {
+  private speedAt(moment: number): number {
+    const t = Math.max(this.firstTime(), Math.min(this.lastTime(), moment));
     const a = this.path.at(t - 0.1), b = this.path.at(t + 0.1);
     const first = this.firstTime(), last = this.lastTime();
     const span = Math.min(last, t + 0.1) - Math.max(first, t - 0.1);
@@ -343,8 +353,7 @@ export class FlightScene {
     const group = this.layer("movers", "movers", "mover");
     this.tags = this.tags.filter((t) => t.layer !== "movers" || (t.element.remove(), false));
     for (const mover of this.moving) {
-      const object = new Mesh(new SphereGeometry(mover.json.radius, 24, 16),
-        new MeshLambertMaterial({ color: colour("mover"), transparent: true, opacity: 0.6, depthWrite: false }));
+      const object = new Mesh(new SphereGeometry(mover.json.radius, 24, 16), solid("mover", 0.6));
       mover.object = object;
       mover.tag = this.tag(this.moving.length > 12 ? "" : mover.json.id, object.position, "mover", "movers");
       group.add(object);
@@ -362,10 +371,10 @@ export class FlightScene {
     this.craft = vehicle();
     this.craft.rotation.order = "YXZ";
     this.shadow = new Group();
-    const spot = new Mesh(new RingGeometry(0.16, 0.24, 40), new MeshBasicMaterial({ color: colour("accent"), transparent: true, opacity: 0.75, side: DoubleSide }));
+    const spot = new Mesh(new RingGeometry(0.16, 0.24, 40), glowing("accent", 0.75));
     spot.rotation.x = -Math.PI / 2;
     this.shadow.add(spot, segments([0, 0, 0, 0, 1, 0], "accent", 0.55));
-    this.ghost = new Mesh(new SphereGeometry(0.07, 16, 12), new MeshBasicMaterial({ color: colour("ink-2"), transparent: true, opacity: 0.8 }));
+    this.ghost = new Mesh(new SphereGeometry(0.07, 16, 12), glowing("ink-2", 0.8));
     this.stage.add(this.craft, this.shadow, this.ghost);
   }
 
@@ -428,7 +437,7 @@ export class FlightScene {
       if (!w || w.points.length < 6) return;
       const positions = new Float32Array(w.points.length);
       for (let i = 0; i + 2 < w.points.length; i += 3) positions.set([w.points[i + 1], w.points[i + 2], -w.points[i]], i);
-      group.add(fat(positions, { color: new Color(colour(tone)).getHex(), linewidth, transparent: true, opacity: 0.9 }));
+      group.add(fat(positions, colour(tone), linewidth, 0.9));
     };
     draw(plan, planned, "plan", 2.4);
     draw(backup, stop, "warn", 2);
@@ -451,7 +460,7 @@ export class FlightScene {
   // ---- cameras and pointers
 
   private begin(renderer: WebGLRenderer): void {
-    renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    renderer.setPixelRatio(this.ratio());
     const camera = (object: PerspectiveCamera | OrthographicCamera) => {
       this.controls?.dispose();
       const controls = new OrbitControls(object, this.canvas);
@@ -474,7 +483,10 @@ export class FlightScene {
     this.canvas.addEventListener("dblclick", () => this.resetCamera());
     this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.canvas.addEventListener("webglcontextrestored", () => this.rebuild());
-    addEventListener("beforeprint", () => this.render());
+    addEventListener("beforeprint", () => {
+      this.moving3d = false;
+      this.render();
+    });
   }
 
   private useCamera: (object: PerspectiveCamera | OrthographicCamera) => void = () => undefined;
@@ -648,10 +660,11 @@ export class FlightScene {
     if (place) {
       const at = toThree(place), level = this.floor!.level;
       this.goal = new Group();
-      const ring = new Mesh(new RingGeometry(0.3, 0.42, 48), new MeshBasicMaterial({ color: colour("accent"), side: DoubleSide }));
+      const size = Math.max(0.3, this.reach / 70);
+      const ring = new Mesh(new RingGeometry(size, 1.4 * size, 48), glowing("accent"));
       ring.rotation.x = -Math.PI / 2;
       ring.position.set(at.x, level + 0.01, at.z);
-      const ball = new Mesh(new SphereGeometry(0.16, 20, 14), new MeshBasicMaterial({ color: colour("accent") }));
+      const ball = new Mesh(new SphereGeometry(0.55 * size, 20, 14), glowing("accent"));
       ball.position.copy(at);
       this.goal.add(ring, ball, segments([at.x, level, at.z, at.x, at.y, at.z], "accent"));
       this.stage.add(this.goal);
@@ -662,6 +675,8 @@ export class FlightScene {
   /** Give the graphics card back. */
   end(): void {
     this.controls?.dispose();
+    clearTimeout(this.settling);
+    clearTimeout(this.rebuildSoon);
     this.stage.children.slice().forEach(dispose);
     this.renderer?.dispose();
     this.renderer?.forceContextLoss();
@@ -696,10 +711,13 @@ export class FlightScene {
       backup: this.ways.some((w) => w.kind === "backup"), movers: this.moving.length > 0, fence: !!this.json.fence?.length, bounds: !!this.json.bounds,
       least: !!this.json.least, obstacles: this.json.obstacles.some((o) => o.kind !== "cells"), cells: this.json.obstacles.some((o) => o.kind === "cells"),
     };
+    const shown = order.filter((name) => present[name]);
+    if (this.layersShown === String(shown)) return;
+    this.layersShown = String(shown);
     this.layer("plan", "plan", "plan");
     this.layer("backup", "stop kept ready", "warn");
     this.waysShown = [];
-    this.layerBar.replaceChildren(...order.filter((name) => present[name]).map((name) => {
+    this.layerBar.replaceChildren(...shown.map((name) => {
       const layer = this.layers.get(name)!;
       return h("button.chip", {
         type: "button", "aria-pressed": String(layer.shown), "data-layer": name,
@@ -715,17 +733,37 @@ export class FlightScene {
 
   // ---- drawing, only when something moved
 
+  /**
+   * Without a graphics card a frame costs tens of milliseconds, most of it by the pixel: while things move they are
+   * drawn coarsely, and once more finely when they stand. A card that falls behind is treated likewise.
+   */
+  private ratio(): number {
+    const fine = this.soft ? 2 : Math.min(2, devicePixelRatio);
+    return this.moving3d ? Math.min(fine, this.soft ? 0.8 : 1) : fine;
+  }
+
   invalidate(): void {
     if (this.waiting) return;
     this.waiting = true;
+    const asked = performance.now();
     requestAnimationFrame(() => {
       this.waiting = false;
+      this.late += 0.2 * (Math.min(500, performance.now() - asked) - this.late);
+      clearTimeout(this.settling);
+      if (this.drawn.frames > 2 && (this.soft || this.late > 60)) {
+        this.moving3d = true;
+        this.settling = window.setTimeout(() => {
+          this.moving3d = false;
+          this.render();
+        }, 300);
+      }
       this.render();
     });
   }
 
   private render(): void {
     if (!this.renderer || !this.controls) return;
+    if (this.renderer.getPixelRatio() !== this.ratio()) this.renderer.setPixelRatio(this.ratio());
     const camera = this.controls.object as PerspectiveCamera | OrthographicCamera;
     const height = this.element.clientHeight || 1;
     const perPixel = camera === this.flat ? (this.flat.top - this.flat.bottom) / this.flat.zoom / height
@@ -757,6 +795,15 @@ export class FlightScene {
       if (inside) element.style.transform = `translate(${((p.x + 1) / 2) * width}px, ${((1 - p.y) / 2) * height}px) translate(-50%, -50%)`;
     }
   }
+}
+
+/** Whether WebGL is the processor's work here. */
+function drawnInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
 function moving(json: MoverJson): Moving {
@@ -804,11 +851,22 @@ function flat3(track: Track, kept: number[]): Float32Array {
   return positions;
 }
 
-function fat(positions: Float32Array, options: ConstructorParameters<typeof LineMaterial>[0], colours?: Float32Array): Line2 {
+/** A line of so many pixels, in one colour or one a vertex. */
+function fat(positions: Float32Array, tint: Float32Array | string, linewidth: number, opacity = 1, dash = 0): Line2 {
   const geometry = new LineGeometry();
   geometry.setPositions(positions);
-  if (colours) geometry.setColors(colours);
-  const line = new Line2(geometry, new LineMaterial(options));
+  if (typeof tint === "string") {
+    const { r, g, b } = new Color(tint);
+    tint = Float32Array.from({ length: positions.length }, (_, i) => [r, g, b][i % 3]);
+  }
+  geometry.setColors(tint);
+  const material = new LineMaterial({
+    linewidth, vertexColors: true, transparent: true, opacity, dashed: true, dashSize: dash || 1e9, gapSize: 0.75 * dash,
+  });
+  const line = new Line2(geometry, material);
+  // Below the obstacles, which tint what is behind them; where lines coincide, what was flown covers what was meant.
+  line.renderOrder = opacity < 1 ? -2 : -1;
+  material.depthWrite = opacity >= 1;
   line.computeLineDistances();
   line.frustumCulled = false;
   return line;

@@ -1,8 +1,8 @@
 /** What stands in the scene: obstacles, map cells, fence, bounds, ground, the vehicle. North, east, up become three's -z, x, y. */
 
 import {
-  BoxGeometry, BufferGeometry, CircleGeometry, Color, CylinderGeometry, DoubleSide, EdgesGeometry, ExtrudeGeometry, Float32BufferAttribute,
-  Group, InstancedMesh, LineBasicMaterial, LineSegments, Material, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
+  BoxGeometry, BufferGeometry, CircleGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, ExtrudeGeometry, Float32BufferAttribute,
+  Group, InstancedMesh, LineBasicMaterial, LineSegments, Material, Matrix4, Mesh, MeshLambertMaterial, Object3D,
   RingGeometry, Shape, SphereGeometry, Vector3,
 } from "three";
 import { decode, type ObstacleJson, type Point } from "./data";
@@ -12,8 +12,16 @@ export function toThree([n, e, u]: ArrayLike<number> & Iterable<number>): Vector
   return new Vector3(e, u, -n);
 }
 
-function solid(name: string, opacity: number): MeshLambertMaterial {
-  return new MeshLambertMaterial({ color: colour(name), transparent: opacity < 1, opacity, depthWrite: opacity >= 1, side: DoubleSide });
+// Every material is one of three kinds that differ in numbers only: each further kind is a shader to compile.
+
+/** Lit by the sun. */
+export function solid(name: string, opacity = 1): MeshLambertMaterial {
+  return new MeshLambertMaterial({ color: colour(name), transparent: true, opacity, depthWrite: opacity >= 1, side: DoubleSide });
+}
+
+/** Of its own colour, whatever the light. */
+export function glowing(name: string, opacity = 1): MeshLambertMaterial {
+  return new MeshLambertMaterial({ color: 0, emissive: colour(name), transparent: true, opacity, depthWrite: opacity >= 1, side: DoubleSide });
 }
 
 function edged(geometry: BufferGeometry, name: string, opacity: number): Group {
@@ -61,7 +69,7 @@ function cells(at: ArrayLike<number>, size: number): Object3D {
 export function segments(points: number[], name: string, opacity = 1): LineSegments {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
-  return new LineSegments(geometry, new LineBasicMaterial({ color: colour(name), transparent: opacity < 1, opacity }));
+  return new LineSegments(geometry, new LineBasicMaterial({ color: colour(name), transparent: true, opacity }));
 }
 
 export function boundsFrame(low: Point, high: Point): Object3D {
@@ -83,7 +91,7 @@ export function fenceCurtain(corners: [number, number][], low: number, high: num
   });
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(wall, 3));
-  group.add(new Mesh(geometry, new MeshBasicMaterial({ color: colour("bad"), transparent: true, opacity: 0.05, side: DoubleSide, depthWrite: false })),
+  group.add(new Mesh(geometry, glowing("bad", 0.05)),
     segments(rim, "bad", 0.55));
   return group;
 }
@@ -110,7 +118,7 @@ export const VEHICLE_SPAN = 2 * (ARM + 0.13);
 /** A quadrotor of natural size, nose toward -z; the front rotors carry the accent. */
 export function vehicle(): Group {
   const group = new Group();
-  const dark = new MeshLambertMaterial({ color: colour("vehicle") });
+  const dark = solid("vehicle");
   const put = (geometry: BufferGeometry, material: Material, x: number, y: number, z: number, turn = 0) => {
     const mesh = new Mesh(geometry, material);
     mesh.position.set(x, y, z);
@@ -119,14 +127,13 @@ export function vehicle(): Group {
     return mesh;
   };
   put(new BoxGeometry(0.13, 0.07, 0.2), dark, 0, 0, 0);
-  put(new BoxGeometry(0.05, 0.035, 0.06), new MeshLambertMaterial({ color: colour("accent") }), 0, 0.01, -0.12);
+  put(new BoxGeometry(0.05, 0.035, 0.06), solid("accent"), 0, 0.01, -0.12);
   for (const [x, z] of [[1, -1], [-1, -1], [1, 1], [-1, 1]]) {
     const front = z < 0, d = ARM / Math.SQRT2;
     put(new BoxGeometry(0.022, 0.02, ARM), dark, (x * d) / 2, 0, (z * d) / 2, Math.atan2(x, z));
     put(new CylinderGeometry(0.022, 0.026, 0.05, 12), dark, x * d, 0.02, z * d);
-    const tint = new Color(colour(front ? "accent" : "vehicle"));
     for (const [geometry, opacity] of [[new CircleGeometry(0.127, 32), 0.28], [new RingGeometry(0.115, 0.13, 40), 0.95]] as const) {
-      const disc = put(geometry, new MeshBasicMaterial({ color: tint, transparent: true, opacity, side: DoubleSide, depthWrite: false }), x * d, 0.05, z * d);
+      const disc = put(geometry, glowing(front ? "accent" : "vehicle", opacity), x * d, 0.05, z * d);
       disc.rotation.x = -Math.PI / 2;
     }
   }
