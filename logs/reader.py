@@ -23,7 +23,7 @@ from mcap.records import Attachment as McapAttachment
 from mcap.records import Channel, Chunk, DataEnd, Footer, Header, Metadata, Schema
 
 from logs import schema
-from logs.container import MAGIC, Attachment, Direction
+from logs.container import LIBRARY, MAGIC, Attachment, Direction
 from logs.errors import RecordingError, SchemaVersionError
 from logs.parts import PART, later_parts, number_of
 from wire.datagram import Address
@@ -216,7 +216,7 @@ class Recording:
         position = file.seek(len(MAGIC))
         channels: dict[int, ChannelInfo] = {}
         schemas: dict[int, str] = {}
-        summary = False
+        summary = ours = False
         crc = zlib.crc32(magic)  # of everything so far; from DataEnd on, of the summary
         while True:
             head = file.read(_RECORD.size)
@@ -239,11 +239,16 @@ class Recording:
                         zlib.crc32(head + body[:-4], crc),
                         "the summary",
                     )
+                    if ours and body[:8] == bytes(8):
+                        yield _Problem(f"it ends at byte {position} without a summary: not closed")
+                        return
                     if file.read(len(MAGIC)) != MAGIC:
                         yield _Problem("the mark at its end is missing: cut short")
                     return
                 elif opcode in _TOP_LEVEL:
-                    yield _TOP_LEVEL[opcode](ReadDataStream(BytesIO(body)))
+                    record = _TOP_LEVEL[opcode](ReadDataStream(BytesIO(body)))
+                    ours = ours or (isinstance(record, Header) and record.library == LIBRARY)
+                    yield record
                 elif opcode == Opcode.MESSAGE:
                     raise ValueError("a message outside a chunk")
                 elif not summary and opcode == Opcode.MESSAGE_INDEX:

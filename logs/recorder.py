@@ -27,13 +27,11 @@ from types import TracebackType
 from typing import Self
 
 from logs import schema
-from logs.channels import Channels
 from logs.container import Attachment, Direction
 from logs.errors import RecordingError
 from logs.parts import MOST_PARTS, Gap, Parts, Room, Rotation
-from logs.secrets import masked
+from logs.scribe import Item, Scribe
 from wire.datagram import Address
-from wire.framing import Framer
 
 FLUSH_S = 0.5
 """Longest time between a message and its reaching the file [s]: what a crash can cost."""
@@ -74,13 +72,6 @@ class RecorderCounters:
     dropped_raw: int = 0
     masked: int = 0
     parts: int = 1
-
-
-# What waits for the writer. Plain tuples: one is made for every datagram, in the flight loop.
-_Datagram = tuple[int, int, int, str, Direction, bytes, Address | None]  # log time [ns], now [us], tick, ...
-_Message = tuple[int, int, int, str, schema.Record]
-_Table = tuple[str, Mapping[str, str]]
-_Item = _Datagram | _Message | _Table
 
 
 class Recorder:
@@ -125,15 +116,9 @@ class Recorder:
         self._rotation = rotation or Rotation()
         self._parts = Parts(path, metadata, attachments, numbered=rotation is not None)
         assert self._parts.container is not None
-        self._container, self._channels = self._parts.container, Channels(self._parts.container)
+        self._container, self._scribe = self._parts.container, Scribe(self._parts.container)
         self._closed = False
-        self._counts: dict[str, dict[str, int]] = {"rx": {}, "tx": {}}
-        self._counts |= {family: {"": 0} for family in ("decoded", "messages", "aside")}
-        self._rx, self._tx = self._counts["rx"], self._counts["tx"]
-        self._dropped_decoded = self._dropped_raw = self._masked = 0
-        self._framers: dict[tuple[str, Direction], Framer] = {}
-        self._seen: set[bytes] = set()  # datagrams decoded in tick `_seen_tick`
-        self._seen_tick = -1
+        self._dropped_raw = 0
         self._last = (0, 0, 0)  # log time, now and tick of the newest item
         self._gap: Gap | None = None  # nothing is being written
         self._broken = False  # nor will be
@@ -144,7 +129,7 @@ class Recorder:
         self._decodes = True  # there is room for it
         self._warned = False
         self._flush_at = self._losses_at = self._retry_at = self._part_ends_at = -1  # [ns] of `_now_ns`
-        self._queue: deque[_Item] = deque()
+        self._queue: deque[Item] = deque()
         self._overflowed = 0  # counted by the caller, `_dropped_raw` by the writer: no two threads add to one number
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
@@ -194,14 +179,15 @@ class Recorder:
     @property
     def counters(self) -> RecorderCounters:
         """A snapshot; while a writer thread runs, of what it has written so far."""
+        scribe = self._scribe
         return RecorderCounters(
-            rx=dict(self._rx),
-            tx=dict(self._tx),
-            decoded=self._counts["decoded"][""],
-            messages=self._counts["messages"][""] + self._counts["aside"][""],
-            dropped_decoded=self._dropped_decoded,
+            rx=dict(scribe.rx),
+            tx=dict(scribe.tx),
+            decoded=scribe.decoded,
+            messages=scribe.messages + scribe.aside,
+            dropped_decoded=scribe.dropped_decoded,
             dropped_raw=self._dropped_raw + self._overflowed,
-            masked=self._masked,
+            masked=scribe.masked,
             parts=self._parts.number,
         )
 
@@ -252,7 +238,7 @@ class Recorder:
 
     # ---- the caller's side of the queue -------------------------------------------------------------------------
 
-    def _put(self, item: _Item) -> None:
+    def _put(self, item: Item) -> None:
         """Write now, or leave it to the thread."""
         if self._closed:
             raise ValueError(f"recorder of {self.path} is closed")
@@ -284,7 +270,7 @@ class Recorder:
         """Real time with a thread; without, log time, so that the same calls give the same bytes."""
         return time.monotonic_ns() if self._threaded else self._last[0]
 
-    def _write(self, item: _Item, decode: bool) -> None:
+    def _write(self, item: Item, decode: bool) -> None:
         """Put one item into the present part; between two parts it is counted as missing."""
         if len(item) > 2:
             self._last = item[:3]
@@ -293,9 +279,9 @@ class Recorder:
             return
         try:
             if len(item) == 7:
-                self._datagram(item, decode)
+                self._scribe.datagram(item, decode)
             elif len(item) == 5:
-                self._message(item)
+                self._scribe.message(item)
             else:
                 self._container.add_metadata(*item)
         except OSError as error:
@@ -323,16 +309,11 @@ class Recorder:
         if now_ns >= self._losses_at:
             self._losses_at = now_ns + _ns(LOSSES_S)
             self._attempt(self._record_losses)
-        self._attempt(self._flush)
+        self._attempt(self._container.flush)
         if self._gap is None and self._threaded:
             self._watch_room()
         if self._gap is None and self._part_is_full(now_ns):
             self._rotate()
-
-    def _flush(self) -> None:
-        newest = self._last[0]
-        self._container.flush()
-        self._whole_to_ns = newest
 
     def _attempt(self, action: Callable[[], None]) -> None:
         if self._gap is not None:
@@ -342,96 +323,23 @@ class Recorder:
         except OSError as error:
             self._abandon(error)
 
-    def _datagram(self, item: _Datagram, decode: bool) -> None:
-        log_ns, now_us, tick, link, direction, data, peer = item
-        clean = masked(data)
-        if clean is not data:
-            data = clean
-            self._masked += 1
-        publish_ns = now_us * 1000
-        add = self._container.add_message
-        add(self._channels.raw(link, direction, peer), tick, log_ns, publish_ns, data)
-        counts = self._rx if direction == "rx" else self._tx
-        counts[link] = counts.get(link, 0) + 1
-        if tick != self._seen_tick:
-            self._seen.clear()
-            self._seen_tick = tick
-        again = data in self._seen
-        if again and direction == "tx":
-            return
-        self._seen.add(data)
-        framer = self._framers.get((link, direction))
-        if framer is None:
-            framer = self._framers[link, direction] = Framer()
-        packets, known, decoded = framer.packets(data), self._channels.packets, 0
-        for packet in packets if not again else ():
-            key = packet.message_id << 16 | packet.system_id << 8 | packet.component_id
-            target = known.get(key)
-            if target is None:
-                try:
-                    target = self._channels.packet(key)
-                except LookupError:
-                    self._dropped_decoded += 1
-                if target is None:
-                    continue
-            if not decode:
-                self._dropped_decoded += 1
-                continue
-            add(target[0], tick, log_ns, publish_ns, target[1](packet.payload))
-            decoded += 1
-        self._counts["decoded"][""] += decoded
-
-    def _message(self, item: _Message) -> None:
-        log_ns, now_us, tick, topic, message = item
-        channel = self._channels.record(topic, type(message))
-        self._container.add_message(channel, tick, log_ns, now_us * 1000, schema.encode(message))
-        self._counts[self._channels.kinds[channel].family][""] += 1
-
     # ---- losses -------------------------------------------------------------------------------------------------
-
-    def _losses(self) -> dict[str, int]:
-        """Every counter of what is lost, by name."""
-        values = {"recorder.dropped_raw": self._dropped_raw + self._overflowed}
-        values["recorder.dropped_decoded"] = self._dropped_decoded
-        values["recorder.masked_keys"] = self._masked
-        for (link, direction), framer in self._framers.items():
-            if direction == "rx":
-                for (system, component), sender in framer.senders.items():
-                    values[f"{link}.{system}.{component}.sequence_gaps"] = sender.lost
-        with suppress(OSError, ValueError):  # the sockets are closed: what was told of them last holds
-            values |= self._more_losses()
-        return values
 
     def _record_losses(self) -> None:
         """A record for each counter that has changed."""
-        for name, total in self._losses().items():
+        values = {"recorder.dropped_raw": self._dropped_raw + self._overflowed} | self._scribe.losses()
+        with suppress(OSError, ValueError):  # the sockets are closed: what was told of them last holds
+            values |= self._more_losses()
+        for name, total in values.items():
             if total != self._told_losses.get(name, 0):
                 self._told_losses[name] = total
-                self._message((*self._last, schema.TOPICS[schema.Loss], schema.Loss(name, total)))
-
-    def _table_of_losses(self) -> dict[str, str]:
-        values = {"dropped_raw": str(self.counters.dropped_raw), "dropped_decoded": str(self._dropped_decoded)}
-        if self._masked:
-            values["masked_keys"] = str(self._masked)
-        for (link, direction), framer in self._framers.items():
-            at = f"{link}.{direction}"
-            counters = framer.counters
-            values |= {
-                f"{at}.garbage_bytes": str(counters.garbage_bytes),
-                f"{at}.bad_crc": str(counters.bad_crc),
-                f"{at}.unknown": str(counters.unknown),
-                f"{at}.truncated": str(counters.truncated),
-            }
-            if direction == "rx":
-                for (system, component), sender in framer.senders.items():
-                    values[f"{at}.{system}.{component}.received"] = str(sender.received)
-                    values[f"{at}.{system}.{component}.lost"] = str(sender.lost)
-        return values
+                self._scribe.message((*self._last, schema.TOPICS[schema.Loss], schema.Loss(name, total)))
 
     def _finish(self) -> None:
         """Write the losses and everything a reader seeks by."""
         self._record_losses()
-        self._container.add_metadata("recorder", self._table_of_losses())
+        dropped = str(self._dropped_raw + self._overflowed)
+        self._container.add_metadata("recorder", {"dropped_raw": dropped, **self._scribe.table()})
         self._container.finish()
 
     # ---- parts --------------------------------------------------------------------------------------------------
@@ -463,9 +371,9 @@ class Recorder:
             if self._gap is None:
                 self._open_gap(_reason(error))
             return
-        self._channels, self._gap = Channels(self._container), None
+        self._scribe.begin(self._container)
+        self._gap = None
         self._told_losses.clear()  # every part tells all of them
-        self._whole_to_ns = self._last[0]
         self._part_begins(self._now_ns())
         if gap is not None:
             self._notices.append(f"recording goes on in {self._parts.paths[-1]}: {gap.missing} entries are missing")
@@ -473,20 +381,14 @@ class Recorder:
     def _abandon(self, error: OSError) -> None:
         """The disk did not take what there was: end this part with what it has, and try another later."""
         missing = self._dropped_raw + self._overflowed
-        for channel, count in self._container.abandon().items():
-            kind = self._channels.kinds[channel]
-            counts = self._counts[kind.family]
-            counts[kind.link] -= count
-            if kind.family == "decoded":
-                self._dropped_decoded += count
-            elif kind.family != "aside":  # losses are told anew
-                self._dropped_raw += count
+        self._dropped_raw += self._scribe.take_back(self._container.abandon())
         self._parts.close()
         self._open_gap(_reason(error), missing)
 
     def _open_gap(self, reason: str, missing: int | None = None) -> None:
         """From here on nothing is written; `missing`: how many entries were, before the first of this gap."""
         before = self._dropped_raw + self._overflowed if missing is None else missing
+        self._whole_to_ns = self._container.newest_ns or self._whole_to_ns
         self._gap = Gap(reason, self._whole_to_ns, missing=before)
         self.failure = self.failure or f"writing failed: {reason}"
         self._retry_at = self._now_ns() + _ns(RETRY_S)

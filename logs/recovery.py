@@ -25,7 +25,8 @@ from logs.container import LIBRARY, MAGIC, PROFILE, Summary, bare_tail, bytes_of
 from logs.errors import RecordingError
 from logs.lock import lock
 from logs.reader import RECOVERY
-from logs.scan import Piece, Scan, chunk_stated, message_at, read_attachment, read_metadata, records_of, scan
+from logs.scan import Piece, Scan, chunk_stated, message_at, read_attachment, read_metadata, scan
+from logs.unpack import records_of
 
 SUFFIX = ".recovering"
 _BLOCK = 1024 * 1024
@@ -77,7 +78,7 @@ def recover(path: Path) -> Recovered:
 
 
 def is_finished(path: Path) -> bool:
-    """Whether a file ends as a closed recording does; a look at its last bytes only.
+    """Whether a file ends as a closed recording does, with a summary; a look at its last bytes only.
 
     Raises
     ------
@@ -87,7 +88,8 @@ def is_finished(path: Path) -> bool:
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - len(MAGIC) - 29))
         tail = file.read()
-    return size > 2 * len(MAGIC) and tail.startswith(b"\x02\x14\0\0\0\0\0\0\0") and tail.endswith(MAGIC)
+    footer = tail.startswith(b"\x02\x14\0\0\0\0\0\0\0") and tail.endswith(MAGIC)
+    return size > 2 * len(MAGIC) and footer and tail[9:17] != bytes(8)
 
 
 def recover_unfinished(folder: Path, pattern: str = "*.mcap") -> list[Recovered | RecordingError]:
@@ -106,7 +108,9 @@ def recover_unfinished(folder: Path, pattern: str = "*.mcap") -> list[Recovered 
             with open(path, "rb") as file:
                 if not lock(file):
                     continue
-            done.append(recover(path))
+            outcome = recover(path)
+            if outcome.changed:
+                done.append(outcome)
         except RecordingError as error:
             done.append(error)
         except OSError as error:
@@ -291,10 +295,11 @@ def _records(
     data: mmap.mmap, piece: Piece, declared: Sequence[bytes], found: Scan
 ) -> tuple[bytes, dict[int, list[int]]]:
     """The content of a chunk made anew: declarations that are missing, then its records without unknown channels'."""
+    assert piece.unpacked is not None
     out = list(declared)
     size = sum(map(len, out))
     index: dict[int, list[int]] = {}
-    for record, channel, log_ns in records_of(data, piece):
+    for record, channel, log_ns in records_of(data, piece.start, piece.end, piece.unpacked.size):
         if channel is not None:
             if channel not in found.channels:
                 continue

@@ -2,9 +2,7 @@
 
 A chunk proves itself by its checksum, an attachment by its own, metadata by lengths that fit to the byte. Where
 something does not, the scan looks for the next record that does: nothing behind damage is given up. A chunk that the
-end of the file cuts off still has whole messages in front, as far as it can be unpacked.
-
-Memory: a chunk is unpacked piece by piece and never kept; what is claimed by a length is never believed.
+end of the file cuts off still has whole messages in front, as far as it can be unpacked (`logs.unpack`).
 """
 
 import re
@@ -14,64 +12,19 @@ from array import array
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from io import BytesIO
-from mmap import mmap
 from typing import Literal
 
-import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import EndOfFile
 from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, ChunkIndex, Footer, Header, Metadata, Schema
 
 from logs.container import LIBRARY, MAGIC
+from logs.unpack import CHUNK, MESSAGE, RECORD, Buffer, Unpacked, unpack, whole
 
-try:
-    import lz4.frame as lz4
-except ImportError:  # the mcap package brings it, but only other writers' files need it
-    lz4 = None
-
-MOST_UNPACKED = 256 * 1024 * 1024
-"""A chunk that unpacks to more is damage; ours end at 1 MiB."""
 _PIECE = 256 * 1024
-_RECORD = struct.Struct("<BQ")
-_MESSAGE = struct.Struct("<HIQQ")
-_CHUNK_FIXED = struct.Struct("<QQQII")
-_ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 _START = re.compile(rb"[\x06\x09\x0c\x0f](?=.{5}\x00\x00\x00)", re.DOTALL)
 """Chunk, attachment, metadata, end of the data; no record is a terabyte long."""
-
-Buffer = bytes | mmap
-
-
-@dataclass(slots=True)
-class Unpacked:
-    """What stands in a chunk, as far as it can be told.
-
-    Attributes
-    ----------
-    index : channel -> log time [ns], offset, log time, ... of its messages; empty once it need not be written again.
-    counts : channel -> messages. first_ns, last_ns : of the log times; zeros without a message.
-    size : of the whole records in it [bytes].
-    whole : whether that is everything, with the right checksum.
-    stated : whether the chunk says of its sizes, times and compression what is true.
-    """
-
-    index: dict[int, "array[int]"] = field(default_factory=dict)
-    counts: dict[int, int] = field(default_factory=dict)
-    first_ns: int = 0
-    last_ns: int = 0
-    schemas: list[Schema] = field(default_factory=list)
-    channels: list[Channel] = field(default_factory=list)
-    size: int = 0
-    whole: bool = False
-    stated: bool = False
-
-    def sum_up(self) -> None:
-        """Take counts and times from the index."""
-        self.counts = {channel: len(entries) // 2 for channel, entries in self.index.items()}
-        times = [(min(entries[0::2]), max(entries[0::2])) for entries in self.index.values()]
-        self.first_ns = min((time[0] for time in times), default=0)
-        self.last_ns = max((time[1] for time in times), default=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +86,7 @@ def scan(data: Buffer, found: Scan) -> Iterator[Piece]:
     while position < size and not ended:
         piece = None
         opcode, length = _head(data, position)
-        end = position + _RECORD.size + length
+        end = position + RECORD.size + length
         if opcode == Opcode.DATA_END and length == 4 and end <= size:
             ended = True
             found.data_end = position
@@ -157,7 +110,7 @@ def scan(data: Buffer, found: Scan) -> Iterator[Piece]:
             position = next_at
             continue
         go_on = _next(data, position + 1, summary_at)
-        torn = _unpack(data, position, size) if go_on is None and opcode == Opcode.CHUNK else None
+        torn = unpack(data, position, size) if go_on is None and opcode == Opcode.CHUNK else None
         if not found.problem:
             at = f"byte {position}"
             cut = end > size and go_on is None
@@ -179,6 +132,8 @@ def scan(data: Buffer, found: Scan) -> Iterator[Piece]:
         found.problem = found.problem or f"it ends at byte {size} without a footer"
     elif not found.problem and summary_at != found.data_end + 13:
         found.problem = "its summary is cut off or damaged"
+    elif not found.problem and not foreign and summary_at == size - len(MAGIC) - 29:
+        found.problem = f"it ends at byte {size} without a summary"
 
 
 def _is_data(opcode: int, cut: bool) -> bool:
@@ -189,18 +144,18 @@ def _is_data(opcode: int, cut: bool) -> bool:
 
 def _head(data: Buffer, position: int) -> tuple[int, int]:
     """Kind and length of the record there; of one too short for that, a length that goes beyond the file."""
-    if position + _RECORD.size > len(data):
+    if position + RECORD.size > len(data):
         return data[position], 1 << 62
-    opcode, length = _RECORD.unpack_from(data, position)
+    opcode, length = RECORD.unpack_from(data, position)
     return opcode, length
 
 
 def _proved(data: Buffer, opcode: int, start: int, end: int, foreign: bool, found: Scan) -> Piece | None:
     """The record from `start` to `end`, if it is one beyond doubt."""
-    body = start + _RECORD.size
+    body = start + RECORD.size
     try:
         if opcode == Opcode.CHUNK:
-            unpacked = _unpack(data, start, end)
+            unpacked = unpack(data, start, end)
             if not unpacked.whole:
                 return None
             _declare(unpacked, found)
@@ -224,10 +179,10 @@ def _proved(data: Buffer, opcode: int, start: int, end: int, foreign: bool, foun
 
 def _proved_inside(data: Buffer, start: int, found: Scan) -> Piece | None:
     """A chunk whose own length is wrong, if the length of what is packed in it is right."""
-    body = start + _RECORD.size
-    if body + _CHUNK_FIXED.size + 16 > len(data):
+    body = start + RECORD.size
+    if body + CHUNK.size + 16 > len(data):
         return None
-    at = body + _CHUNK_FIXED.size + _CHUNK_FIXED.unpack_from(data, body)[4]
+    at = body + CHUNK.size + CHUNK.unpack_from(data, body)[4]
     end = at + 8 + int.from_bytes(data[at : at + 8], "little")
     if end > len(data) or not _plausible(data, Opcode.CHUNK, start, end):
         return None
@@ -239,17 +194,17 @@ def _proved_inside(data: Buffer, start: int, found: Scan) -> Piece | None:
 
 def _proved_foreign(data: Buffer, opcode: int, start: int, end: int, found: Scan) -> Piece | None:
     """What only other writers put between chunks: declarations, single messages, stray indexes, private records."""
-    body = start + _RECORD.size
+    body = start + RECORD.size
     if opcode == Opcode.SCHEMA:
-        schema = _whole(Schema, bytes(data[body:end]))
+        schema = whole(Schema, bytes(data[body:end]))
         found.schemas[schema.id] = schema
         return Piece("other", start, end, schemas=(schema,))
     elif opcode == Opcode.CHANNEL:
-        channel = _whole(Channel, bytes(data[body:end]))
+        channel = whole(Channel, bytes(data[body:end]))
         found.channels[channel.id] = channel
         return Piece("other", start, end, channels=(channel,))
     elif opcode == Opcode.MESSAGE:
-        known = end - body >= _MESSAGE.size and _MESSAGE.unpack_from(data, body)[0] in found.channels
+        known = end - body >= MESSAGE.size and MESSAGE.unpack_from(data, body)[0] in found.channels
         return Piece("message", start, end) if known else None
     elif opcode < 0x80 and opcode != Opcode.MESSAGE_INDEX:
         return None
@@ -269,7 +224,7 @@ def _next(data: Buffer, position: int, summary_at: int) -> int | None:
     for match in _START.finditer(data, position, limit):
         start = match.start()
         opcode, length = _head(data, start)
-        end = start + _RECORD.size + length
+        end = start + RECORD.size + length
         if end > limit:
             continue
         if opcode == Opcode.DATA_END:
@@ -282,138 +237,17 @@ def _next(data: Buffer, position: int, summary_at: int) -> int | None:
 
 def _plausible(data: Buffer, opcode: int, start: int, end: int) -> bool:
     """A look before the checksum is taken, so that damage costs no more time than size."""
-    body = start + _RECORD.size
+    body = start + RECORD.size
     if opcode == Opcode.CHUNK:
-        if end - body < _CHUNK_FIXED.size + 8:
+        if end - body < CHUNK.size + 8:
             return False
-        *_, length = _CHUNK_FIXED.unpack_from(data, body)
-        at = body + _CHUNK_FIXED.size + length
+        *_, length = CHUNK.unpack_from(data, body)
+        at = body + CHUNK.size + length
         stated = int.from_bytes(data[at : at + 8], "little")
         return bool(length <= 8 and at + 8 <= end and stated == end - at - 8)
     if opcode == Opcode.ATTACHMENT:
         return end - body >= 36 and data[end - 4 : end] != bytes(4)
     return True
-
-
-# ---- chunks --------------------------------------------------------------------------------------------------------
-
-
-def unpack_pieces(data: Buffer, start: int, end: int) -> Iterator[bytes]:
-    """The content of the chunk record from `start`, piece by piece, as far as it unpacks."""
-    body = start + _RECORD.size
-    if body + _CHUNK_FIXED.size > end:
-        return
-    name_length = _CHUNK_FIXED.unpack_from(data, body)[4]
-    at = body + _CHUNK_FIXED.size
-    if name_length > 8 or at + name_length + 8 > end:
-        return
-    compression = data[at : at + name_length]
-    at += name_length + 8
-    total = 0
-    try:
-        if compression == b"zstd" or data[at : at + 4] == _ZSTD_MAGIC:
-            unpacker = zstandard.ZstdDecompressor(max_window_size=1 << 27).decompressobj()
-            step = 4096  # so that what one call gives is bounded too: zstd packs at most some thousandfold
-        elif compression == b"lz4" and lz4 is not None:
-            unpacker = lz4.LZ4FrameDecompressor()
-            step = 4096
-        elif not compression:
-            unpacker, step = None, _PIECE
-        else:
-            return
-        for position in range(at, end, step):
-            piece = data[position : min(position + step, end)]
-            if unpacker is not None:
-                if getattr(unpacker, "eof", False):
-                    return
-                piece = unpacker.decompress(piece)
-            total += len(piece)
-            if total > MOST_UNPACKED:
-                return
-            if piece:
-                yield piece
-    except (zstandard.ZstdError, RuntimeError, MemoryError):
-        return
-
-
-def _unpack(data: Buffer, start: int, end: int) -> Unpacked:
-    """Walk the records in a chunk that begins at `start`; `end` of it or of the file."""
-    found, rest, crc, total = Unpacked(), bytearray(), 0, 0
-    body = start + _RECORD.size
-    if body + _CHUNK_FIXED.size > end:
-        return found
-    first_ns, last_ns, size, stated, name_length = _CHUNK_FIXED.unpack_from(data, body)
-    good = True
-    for piece in unpack_pieces(data, start, end):
-        crc = zlib.crc32(piece, crc)
-        total += len(piece)
-        if good:
-            rest += piece
-            good, used = _walk(rest, found)
-            del rest[:used]
-    found.sum_up()
-    found.whole = good and not rest and (stated == crc if stated else total == size)
-    if found.whole:
-        at = body + _CHUNK_FIXED.size + name_length
-        true = (found.first_ns, found.last_ns, total, end - at - 8)
-        found.stated = (first_ns, last_ns, size, int.from_bytes(data[at : at + 8], "little")) == true
-        found.stated = found.stated and data[at - name_length : at] in (b"zstd", b"lz4", b"")
-    return found
-
-
-def _walk(records: bytearray, found: Unpacked) -> tuple[bool, int]:
-    """Take the whole records at the front; False when one cannot be what it says, and how many bytes were taken."""
-    position, size, base, index = 0, len(records), found.size, found.index
-    unpack_record, unpack_message = _RECORD.unpack_from, _MESSAGE.unpack_from
-    good = True
-    while position + 9 <= size:
-        opcode, length = unpack_record(records, position)
-        end = position + 9 + length
-        if end > size:
-            good = length <= MOST_UNPACKED
-            break
-        if opcode == 5 and length >= 22:
-            channel, _, log_ns, _ = unpack_message(records, position + 9)
-            entries = index.get(channel)
-            if entries is None:
-                entries = index[channel] = array("Q")
-            entries.append(log_ns)
-            entries.append(base + position)
-        else:
-            try:
-                if opcode == Opcode.SCHEMA:
-                    found.schemas.append(_whole(Schema, bytes(records[position + 9 : end])))
-                elif opcode == Opcode.CHANNEL:
-                    found.channels.append(_whole(Channel, bytes(records[position + 9 : end])))
-                elif opcode < 0x80:
-                    raise ValueError("no record of a chunk")
-            except (ValueError, struct.error, EndOfFile):
-                good = False
-                break
-        position = end
-    found.size = base + position
-    return good, position
-
-
-def _indexes(data: Buffer, position: int, unpacked: Unpacked) -> tuple[dict[int, int] | None, int]:
-    """Where the message indexes behind a chunk stand, and where they end; None when they are not the chunk's."""
-    offsets: dict[int, int] = {}
-    size, good = len(data), True
-    while position + 15 <= size and data[position] == Opcode.MESSAGE_INDEX:
-        _, length = _head(data, position)
-        end = position + _RECORD.size + length
-        if end > size or length < 6:
-            return None, position
-        channel, entries = struct.unpack_from("<HI", data, position + 9)
-        wanted = unpacked.index.get(channel, array("Q"))
-        good = good and entries == length - 6 and data[position + 15 : end] == wanted.tobytes()
-        if wanted:
-            offsets[channel] = position
-        position = end
-    return (offsets if good and len(offsets) == len(unpacked.index) else None), position
-
-
-# ---- the rest ------------------------------------------------------------------------------------------------------
 
 
 def _read_summary(data: Buffer, found: Scan) -> int:
@@ -431,14 +265,14 @@ def _read_summary(data: Buffer, found: Scan) -> int:
     try:
         while position < footer_at:
             opcode, length = _head(data, position)
-            end = position + _RECORD.size + length
+            end = position + RECORD.size + length
             if end > footer_at:
                 return 0
             if opcode == Opcode.SCHEMA:
-                schema = _whole(Schema, bytes(data[position + 9 : end]))
+                schema = whole(Schema, bytes(data[position + 9 : end]))
                 found.schemas[schema.id] = schema
             elif opcode == Opcode.CHANNEL:
-                channel = _whole(Channel, bytes(data[position + 9 : end]))
+                channel = whole(Channel, bytes(data[position + 9 : end]))
                 found.channels[channel.id] = channel
             position = end
     except (ValueError, struct.error, EndOfFile):
@@ -447,13 +281,13 @@ def _read_summary(data: Buffer, found: Scan) -> int:
 
 
 def _header(data: Buffer, piece: Piece) -> Header:
-    return _whole(Header, bytes(data[piece.start + _RECORD.size : piece.end]))
+    return whole(Header, bytes(data[piece.start + RECORD.size : piece.end]))
 
 
 def chunk_stated(data: Buffer, piece: Piece, offset: int, offsets: dict[int, int], length: int) -> ChunkIndex:
     """What the summary says of a chunk as it stands, put at `offset`, with so many bytes of message indexes."""
-    first_ns, last_ns, size, _, name_length = _CHUNK_FIXED.unpack_from(data, piece.start + _RECORD.size)
-    name_at = piece.start + _RECORD.size + _CHUNK_FIXED.size
+    first_ns, last_ns, size, _, name_length = CHUNK.unpack_from(data, piece.start + RECORD.size)
+    name_at = piece.start + RECORD.size + CHUNK.size
     return ChunkIndex(
         message_start_time=first_ns,
         message_end_time=last_ns,
@@ -467,53 +301,20 @@ def chunk_stated(data: Buffer, piece: Piece, offset: int, offsets: dict[int, int
     )
 
 
-def records_of(data: Buffer, piece: Piece) -> Iterator[tuple[bytes, int | None, int]]:
-    """The whole records in a chunk, with a message's channel and log time [ns], or a declared one."""
-    assert piece.unpacked is not None
-    rest, left = bytearray(), piece.unpacked.size
-    for part in unpack_pieces(data, piece.start, piece.end):
-        rest += part[:left]
-        left -= min(left, len(part))
-        position = 0
-        while position + _RECORD.size <= len(rest):
-            opcode, length = _RECORD.unpack_from(rest, position)
-            end = position + _RECORD.size + length
-            if end > len(rest):
-                break
-            channel: int | None = None
-            log_ns = 0
-            if opcode == Opcode.MESSAGE:
-                channel, _, log_ns, _ = _MESSAGE.unpack_from(rest, position + _RECORD.size)
-            elif opcode == Opcode.CHANNEL:
-                channel = int.from_bytes(rest[position + _RECORD.size : position + _RECORD.size + 2], "little")
-            yield bytes(rest[position:end]), channel, log_ns
-            position = end
-        del rest[:position]
-
-
 def message_at(data: Buffer, piece: Piece) -> tuple[int, int]:
     """Channel and log time [ns] of a message between the chunks."""
-    channel, _, log_ns, _ = _MESSAGE.unpack_from(data, piece.start + _RECORD.size)
+    channel, _, log_ns, _ = MESSAGE.unpack_from(data, piece.start + RECORD.size)
     return channel, log_ns
 
 
 def read_metadata(data: Buffer, piece: Piece) -> Metadata:
     """The metadata record that stands there."""
-    return _whole(Metadata, bytes(data[piece.start + _RECORD.size : piece.end]))
+    return whole(Metadata, bytes(data[piece.start + RECORD.size : piece.end]))
 
 
 def read_attachment(data: Buffer, piece: Piece) -> Attachment:
     """The attachment record that stands there."""
-    return Attachment.read(ReadDataStream(BytesIO(data[piece.start + _RECORD.size : piece.end])))
-
-
-def _whole(kind, body: bytes):  # type: ignore[no-untyped-def]  # the mcap package has no types
-    """A record that takes up all of `body`; ValueError otherwise."""
-    stream = ReadDataStream(BytesIO(body))
-    record = kind.read(stream)
-    if stream.count != len(body):
-        raise ValueError(f"{len(body) - stream.count} bytes behind the record")
-    return record
+    return Attachment.read(ReadDataStream(BytesIO(data[piece.start + RECORD.size : piece.end])))
 
 
 def _fits(data: Buffer, position: int, end: int) -> bool:
@@ -563,3 +364,21 @@ def _crc32(data: Buffer, start: int, end: int, crc: int) -> int:
     for position in range(start, end, _PIECE):
         crc = zlib.crc32(data[position : min(position + _PIECE, end)], crc)
     return crc
+
+
+def _indexes(data: Buffer, position: int, unpacked: Unpacked) -> tuple[dict[int, int] | None, int]:
+    """Where the message indexes behind a chunk stand, and where they end; None when they are not the chunk's."""
+    offsets: dict[int, int] = {}
+    size, good = len(data), True
+    while position + 15 <= size and data[position] == Opcode.MESSAGE_INDEX:
+        _, length = _head(data, position)
+        end = position + RECORD.size + length
+        if end > size or length < 6:
+            return None, position
+        channel, entries = struct.unpack_from("<HI", data, position + 9)
+        wanted = unpacked.index.get(channel, array("Q"))
+        good = good and entries == length - 6 and data[position + 15 : end] == wanted.tobytes()
+        if wanted:
+            offsets[channel] = position
+        position = end
+    return (offsets if good and len(offsets) == len(unpacked.index) else None), position

@@ -102,4 +102,4 @@ def test_a_flight_killed_at_any_moment_leaves_a_recording_that_is_recovered(tmp_
         os.kill(process.pid, signal.SIGKILL)
         killed_ns = time.time_ns()
         process.wait()
-        assert judge(tmp_path, killed_ns, MISSING_S) > 100
+        assert judge(tmp_path, killed_ns, MISSING_S) > 0

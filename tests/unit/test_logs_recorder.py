@@ -187,20 +187,23 @@ class FullDisk:
     """An output that takes so many bytes and then says ENOSPC, in the middle of a write."""
 
     def __init__(self, room: int) -> None:
-        self.data, self.room = bytearray(), room
+        self.data, self.room, self.at = bytearray(), room, 0
 
     def write(self, data: memoryview, /) -> int:
-        left = self.room - len(self.data)
+        left = self.room - self.at
         if left <= 0:
             raise OSError(errno.ENOSPC, "No space left on device")
-        self.data += data[:left]
-        return min(left, len(data))
+        taken = min(left, len(data))
+        self.data[self.at : self.at + taken] = data[:taken]
+        self.at += taken
+        return taken
 
     def truncate(self, size: int, /) -> int:
         del self.data[size:]
         return size
 
     def seek(self, offset: int, /) -> int:
+        self.at = offset
         return offset
 
 
