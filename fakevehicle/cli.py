@@ -2,8 +2,10 @@
 
 import difflib
 import math
+import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -96,6 +98,9 @@ def fly(
         Path | None,
         typer.Option(metavar="FOLDER", help="Record everything and the truth (MCAP); also offered as logs."),
     ] = None,
+    until_stdin_ends: Annotated[
+        bool, typer.Option("--until-stdin-ends", help="End when standard input does: with the process that began it.")
+    ] = False,
     list_params: Annotated[
         bool, typer.Option("--list-params", help="Print every parameter with range, unit and meaning, and end.")
     ] = False,
@@ -152,7 +157,7 @@ def fly(
     try:
         for one in crew:
             links.append(open_links(one.links))
-        counters = _fly(crew, links, speed, started_s)
+        counters = _fly(crew, links, speed, started_s, until_stdin_ends)
     except (LinkError, RecordingError, VehicleError) as error:
         _fail(str(error), 1)
     finally:
@@ -174,11 +179,21 @@ class _Plan:
     folder: Path | None
 
 
-def _fly(crew: list[_Plan], links: list[dict[str, UdpLink]], speed: float, started_s: float) -> DriverCounters:
-    """Warm up, say that all are ready, and run until a signal."""
+def _await_end_of_stdin(signals: list[int]) -> None:
+    while os.read(0, 4096):  # not through sys.stdin, whose lock a thread must not hold when the process ends
+        pass
+    signals.append(0)
+
+
+def _fly(
+    crew: list[_Plan], links: list[dict[str, UdpLink]], speed: float, started_s: float, until_stdin_ends: bool
+) -> DriverCounters:
+    """Warm up, say that all are ready, and run until a signal, or until standard input ends where that is asked."""
     signals: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _frame: signals.append(number))
+    if until_stdin_ends:
+        threading.Thread(target=_await_end_of_stdin, args=(signals,), daemon=True).start()
     began = time.monotonic()
     with Console(stderr=True).status("compiling the flight code (the first time takes a while)"):
         rehearsal = Vehicle(crew[0].config, crew[0].parameters)

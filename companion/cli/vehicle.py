@@ -138,6 +138,7 @@ def running_vehicle(
         *(sys.executable, "-m", "fakevehicle", "--connect", url, "--seed", str(seed), "--autopilot", autopilot),
         *("--home", f"{place},{mission.vehicle.start.heading_deg:g}"),
         *("--wind", f"{wind.north:g},{wind.east:g},{wind.down:g}"),
+        "--until-stdin-ends",  # should we be killed, so is it
     ]
     world, scenario = seen_world(mission), log.with_suffix(".scenario.yaml")
     try:
@@ -150,7 +151,7 @@ def running_vehicle(
     with out:
         # A session of its own, so that Ctrl-C lands the flight instead of killing the vehicle under it.
         process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
+            command, stdin=subprocess.PIPE, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
         )
     try:
         yield process

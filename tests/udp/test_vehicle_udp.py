@@ -86,3 +86,16 @@ def test_a_busy_port_is_one_clear_line_and_exit_code_1() -> None:
     assert run.returncode == 1
     assert run.stderr.count("\n") == 1
     assert "already in use" in run.stderr
+
+
+def test_a_vehicle_that_was_begun_by_another_process_ends_with_it() -> None:
+    began = subprocess.run(  # its input is at its end from the beginning, as a pipe is whose writer was killed
+        [sys.executable, "-m", "fakevehicle", "--connect", f"udpout:127.0.0.1:{free_port()}", "--until-stdin-ends"],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=90,
+        check=False,
+    )
+    assert began.returncode == 0, began.stderr
+    assert "stopped after 0.0 s" in began.stdout
