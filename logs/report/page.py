@@ -2,7 +2,8 @@
 
 The Content-Security-Policy names the script and the style sheet by their digests and forbids everything else: a page
 that wanted to fetch something could not. The data lies in it as gzip in base64, which the browser unpacks by itself
-(DecompressionStream). The same data give the same bytes.
+(DecompressionStream). Equal columns, such as the times of several series, are kept once, and float32 columns by byte
+(all first bytes, then all second ones ...), which gzip makes a fifth smaller. The same data give the same bytes.
 """
 
 import base64
@@ -15,6 +16,8 @@ from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from logs.errors import RecordingError
 
@@ -51,7 +54,10 @@ def report_page(data: Mapping[str, Any]) -> str:
     ------
     TypeError    The data hold something that JSON has no word for.
     """
-    packed = gzip.compress(_json(data).encode(), compresslevel=9, mtime=0)
+    columns: dict[str, int] = {}
+    body = _shared(data, columns)
+    body["columns"] = [{"f32p": _by_byte(column)} for column in columns]
+    packed = gzip.compress(_json(body).encode(), compresslevel=9, mtime=0)
     block = f'<script type="application/octet-stream" id="data">{base64.b64encode(packed).decode()}</script>\n'
     return _page(str(data.get("header", {}).get("title", "flight")), block, "", "'none'")
 
@@ -117,6 +123,23 @@ def _page(title: str, block: str, attributes: str, connect: str) -> str:
 def _digest(text: str) -> str:
     """As a Content-Security-Policy names an inline script."""
     return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def _shared(value: Any, columns: dict[str, int]) -> Any:
+    """The data with every float32 column replaced by its number in `columns`."""
+    if isinstance(value, Mapping):
+        if value.keys() == {"f32"}:
+            return {"column": columns.setdefault(value["f32"], len(columns))}
+        return {key: _shared(item, columns) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_shared(item, columns) for item in value]
+    return value
+
+
+def _by_byte(column: str) -> str:
+    """Little-endian float32 in base64, its bytes sorted by their place in the number."""
+    planes = np.frombuffer(base64.b64decode(column), np.uint8).reshape(-1, 4).T
+    return base64.b64encode(planes.tobytes()).decode()
 
 
 def _json(data: Mapping[str, Any]) -> str:

@@ -1,6 +1,6 @@
 /** The contract with `logs/report/contract.py`, version 1, and its columns unpacked. */
 
-export type ArrayJson = (number | null)[] | { f32: string } | { u: number; t0: number; dt: number };
+export type ArrayJson = (number | null)[] | { f32: string } | { u: number; t0: number; dt: number } | { column: number };
 export type Point = [number, number, number]; // north, east, up [m]
 
 export interface CheckJson { name: string; value: number | string | null; expected: number | string | null; ok: boolean | null }
@@ -39,6 +39,8 @@ export interface TableJson { section: string; title: string; columns: string[]; 
 export interface DataJson {
   version: number; header: HeaderJson; frame: string; scene: SceneJson; plots: PlotJson[]; histograms: HistogramJson[];
   events: EventJson[]; tables: TableJson[];
+  /** In a file: what `column` counts, float32 sorted by byte. */
+  columns?: { f32p: string }[];
 }
 
 /** A column that grows: live pages append to it. Reads go through `view()`. */
@@ -81,7 +83,24 @@ export function decode(array: ArrayJson | undefined | null): Column {
   if (!array) return new Column();
   if (Array.isArray(array)) return new Column(Float64Array.from(array, (v) => v ?? NaN));
   if ("f32" in array) return new Column(new Float32Array(bytes(array.f32).buffer));
+  if ("column" in array) return new Column(shared(array.column));
   return new Column(Float64Array.from({ length: array.u }, (_, i) => array.t0 + i * array.dt));
+}
+
+let columns: { f32p: string }[] = [];
+const unpacked = new Map<number, Float32Array>();
+
+/** A column that several may share; unpacked when first wanted. */
+function shared(index: number): Float32Array {
+  let values = unpacked.get(index);
+  if (!values) {
+    const planes = bytes(columns[index].f32p), count = planes.length / 4;
+    const sorted = new Uint8Array(planes.length);
+    for (let plane = 0; plane < 4; plane++) for (let i = 0, from = plane * count; i < count; i++) sorted[4 * i + plane] = planes[from + i];
+    unpacked.set(index, (values = new Float32Array(sorted.buffer)));
+    columns[index].f32p = "";
+  }
+  return values;
 }
 
 /** Base64 to bytes; the browser's own decoder where it has one. */
@@ -97,7 +116,9 @@ export function bytes(base64: string): Uint8Array<ArrayBuffer> {
 /** What lies in the page: base64, gzip, JSON. */
 export async function unpack(base64: string): Promise<DataJson> {
   const stream = new Blob([bytes(base64.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return JSON.parse(await new Response(stream).text());
+  const data = JSON.parse(await new Response(stream).text()) as DataJson;
+  columns = data.columns ?? [];
+  return data;
 }
 
 /** The last index with `times[index] <= t`; -1 before the first. */
