@@ -32,7 +32,8 @@ FAMILIES = ("L", "H", "U", "Omega", "forest", "maze")
 TRACKING_M = 0.25
 L_SHAPE = Path(__file__).parents[1] / "missions" / "l_shape.yaml"
 AUTOPILOTS: tuple[Autopilot, ...] = ("px4", "ardupilot")
-LINKS = {
+REBOOT_S = 14.0
+LINKS: dict[str, LinkFaults | None] = {
     "30 % loss": LinkFaults(loss=0.3),
     "20 % duplicates": LinkFaults(duplicate=0.2),
     "reordering": LinkFaults(reorder=0.2),
@@ -41,6 +42,7 @@ LINKS = {
     "another system shouting": LinkFaults(shouting=True),
     "garbage, 50 a second": LinkFaults(garbage=50),
     "all of it": LinkFaults(0.3, 0.2, 0.1, 200, ((12.0, 17.0),), 20, True),
+    f"the vehicle boots again at {REBOOT_S:g} s": None,
 }
 
 
@@ -139,10 +141,11 @@ def links(asked: argparse.Namespace) -> None:
     print("|---|---|---|---|---|---|")
     for name, faults in LINKS.items():
         for autopilot in AUTOPILOTS:
-            specs = [
-                FlightSpec(L_SHAPE, autopilot=autopilot, seed=s, link=replace(faults, seed=s))
-                for s in range(1, asked.seeds + 1)
-            ]
+            seeds = range(1, asked.seeds + 1)
+            if faults is None:
+                specs = [FlightSpec(L_SHAPE, autopilot=autopilot, seed=s, reboot_s=REBOOT_S) for s in seeds]
+            else:
+                specs = [FlightSpec(L_SHAPE, autopilot=autopilot, seed=s, link=replace(faults, seed=s)) for s in seeds]
             results = list(fly_all(specs, asked.jobs))
             done = [r for r in results if r.phase == "done" and not r.failure]
             rest = Counter(r.failure or r.cause for r in results if r not in done)

@@ -1,10 +1,10 @@
-"""Flights by what the vehicle sees: `python -m benchmarks.bench_seeing [seeds] [family ...] [--pop-up] [--one]`.
+"""Flights by what the vehicle sees: `python -m benchmarks.bench_seeing [seeds] [family ...] [--pop-up] [--one] [--ardupilot]`.
 
 Whole flights in lockstep of the companion and the bundled vehicle, wind-still, in the worlds of `planner.families`,
 none of whose obstacles the planner is told of: all it has are the vehicle's OBSTACLE_DISTANCE messages. A flight counts
 as reached when it lands as planned at the goal; touched when the vehicle's ball was in an obstacle, by the truth.
 Mazes that are walled off on purpose are left out. `--pop-up`: a wall 6 m ahead of the hull at full speed
-instead; `--one`: one process.
+instead; `--one`: one process; `--ardupilot`: the vehicle shows ArduPilot's behaviour, else PX4's.
 """
 
 import math
@@ -25,6 +25,7 @@ from companion.missionfile import parse_mission
 from companion.phases import Phase
 from companion.seam import Note
 from companion.verdict import FlightMeter, judge
+from fakevehicle.config import Autopilot
 from planner import Box, World, replan, warm_up
 from planner.families import FAMILIES, make
 
@@ -90,9 +91,9 @@ def pop_up(seed: int) -> str:
     )
 
 
-def fly(job: tuple[str, int]) -> Outcome:
+def fly(job: tuple[str, int, Autopilot]) -> Outcome:
     """One flight of a family, or of "pop-up"."""
-    family, seed = job
+    family, seed, autopilot = job
     mission = parse_mission((pop_up(seed) if family == "pop-up" else unknown(family, seed)).encode(), "bench.yaml")
     companion = Companion(mission, CompanionConfig(seed=seed))
     meter, notes, flying = FlightMeter(companion), [], []
@@ -103,7 +104,7 @@ def fly(job: tuple[str, int]) -> Outcome:
 
     began = time.perf_counter()
     planning = InlinePlanning(mission.planner_world())
-    fly_lockstep(companion, build_vehicle(mission, seed), LINK, planning, [meter, tap], limit_s=LIMIT_S)
+    fly_lockstep(companion, build_vehicle(mission, seed, autopilot), LINK, planning, [meter, tap], limit_s=LIMIT_S)
     verdict, track, r = judge(companion, meter), meter.truth_track(), companion.replanning
     world = mission.whole_world()
     if family == "pop-up":
@@ -125,12 +126,13 @@ def main() -> None:
     families = words[1:] or list(FAMILIES)
     if "--pop-up" in sys.argv:
         families = ["pop-up"]
+    autopilot: Autopilot = "ardupilot" if "--ardupilot" in sys.argv else "px4"
     warm_up()
     replan.warm_up()
     with ProcessPoolExecutor(1 if "--one" in sys.argv else 2) as pool:
         for family in families:
             seeds = [s for s in range(count) if family == "pop-up" or not make(family, s).closed]
-            outcomes = list(pool.map(fly, [(family, seed) for seed in seeds]))
+            outcomes = list(pool.map(fly, [(family, seed, autopilot) for seed in seeds]))
             told(family, outcomes)
 
 
