@@ -1,4 +1,6 @@
-"""Flights by what the vehicle sees: `python -m benchmarks.bench_seeing [seeds] [family ...] [--pop-up] [--one] [--ardupilot]`.
+"""Flights by what the vehicle sees.
+
+    python -m benchmarks.bench_seeing [seeds] [family ...] [--pop-up] [--one] [--ardupilot]
 
 Whole flights in lockstep of the companion and the bundled vehicle, wind-still, in the worlds of `planner.families`,
 none of whose obstacles the planner is told of: all it has are the vehicle's OBSTACLE_DISTANCE messages. A flight counts

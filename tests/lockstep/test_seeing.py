@@ -95,7 +95,7 @@ def test_ardupilot_asked_for_the_sensors_streams_flies_the_same_file():
 
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow), pytest.param(2, marks=pytest.mark.slow)])
 def test_a_wall_that_pops_up_six_metres_ahead_is_not_touched(seed):
-    outcome = fly_bench(("pop-up", seed))
+    outcome = fly_bench(("pop-up", seed, "px4"))
     assert outcome.reached, outcome.failure
     assert outcome.clearance > 0.0
 
@@ -104,7 +104,7 @@ def test_a_wall_that_pops_up_six_metres_ahead_is_not_touched(seed):
     "family", ["gap", pytest.param("U", marks=pytest.mark.slow), pytest.param("maze", marks=pytest.mark.slow)]
 )
 def test_an_unknown_world_is_crossed_without_touching_anything(family):
-    outcome = fly_bench((family, 0))
+    outcome = fly_bench((family, 0, "px4"))
     assert outcome.reached, outcome.failure
     assert outcome.clearance > 0.0
 
