@@ -77,33 +77,34 @@ def recover(path: Path) -> Recovered:
         raise RecordingError(path, f"cannot recover: {error.strerror or error}") from error
 
 
-def is_finished(path: Path) -> bool:
-    """Whether a file ends as a closed recording does, with a summary; a look at its last bytes only.
+def is_unfinished(path: Path) -> bool:
+    """Whether a file is one of our recordings and does not end as a closed one does, with a summary.
 
     Raises
     ------
     OSError    It cannot be read.
     """
     with open(path, "rb") as file:
+        head = file.read(256)
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - len(MAGIC) - 29))
         tail = file.read()
     footer = tail.startswith(b"\x02\x14\0\0\0\0\0\0\0") and tail.endswith(MAGIC)
-    return size > 2 * len(MAGIC) and footer and tail[9:17] != bytes(8)
+    return head.startswith(MAGIC) and LIBRARY.encode() in head and not (footer and tail[9:17] != bytes(8))
 
 
 def recover_unfinished(folder: Path, pattern: str = "*.mcap") -> list[Recovered | RecordingError]:
-    """Recover every recording in a folder that was not closed and that nobody writes.
+    """Recover every recording of ours in a folder that was not closed and that nobody writes.
 
     Returns
     -------
-    What became of each, and why one could not be recovered. Files that are finished, being written, or of no size are
-    passed over without a word.
+    What became of each, and why one could not be recovered. Files that are finished, being written, or somebody else's
+    are passed over without a word.
     """
     done: list[Recovered | RecordingError] = []
     for path in sorted(folder.glob(pattern)):
         try:
-            if not path.is_file() or not path.stat().st_size or is_finished(path):
+            if not path.is_file() or not is_unfinished(path):
                 continue
             with open(path, "rb") as file:
                 if not lock(file):

@@ -14,6 +14,7 @@ import struct
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Self
@@ -33,6 +34,7 @@ _LINUX = sys.platform == "linux"
 _SO_TIMESTAMPNS = 35  # asm-generic/socket.h; the socket module has no name for most of these
 _SO_RXQ_OVFL = 40
 _SO_MEMINFO = 55
+_SO_RCVBUFFORCE = 33
 _IP_RECVERR = 11  # linux/in.h
 _IPV6_RECVERR = 25  # linux/in6.h
 _MSG_ERRQUEUE = 0x2000
@@ -283,6 +285,8 @@ def _tune(udp: socket.socket) -> None:
     udp.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER)
     if not _LINUX:
         return
+    with suppress(PermissionError):  # beyond net.core.rmem_max, for whom CAP_NET_ADMIN allows it; socket(7)
+        udp.setsockopt(socket.SOL_SOCKET, _SO_RCVBUFFORCE, RECEIVE_BUFFER)
     udp.setsockopt(socket.SOL_SOCKET, _SO_TIMESTAMPNS, 1)
     udp.setsockopt(socket.SOL_SOCKET, _SO_RXQ_OVFL, 1)
     if udp.family == socket.AF_INET6:
