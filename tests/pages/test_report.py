@@ -191,6 +191,11 @@ def test_the_scene_turns_zooms_and_has_a_top_and_a_side_view(opened):
     assert at[1] - target[1] > 10 * math.hypot(at[0] - target[0], at[2] - target[2])
     opened.press("3")
     at = opened.js(camera)
+    opened.press("d")
+    assert math.dist(opened.js(camera), at) > 1
+    opened.press("3")
+    opened.press("3")
+    at = opened.js(camera)
     assert abs(at[1] - target[1]) < 0.1 * math.dist(at, target)
     assert opened.js("document.querySelector('[data-view=side]').getAttribute('aria-pressed')") == "true"
 
@@ -200,6 +205,16 @@ def test_a_click_on_the_path_moves_the_cursor_there(opened):
     x, y = opened.js("companionPage.page.scene.screenOf(companionPage.page.scene.path.at(16))")
     opened.click(x, y)
     assert opened.js(f"{STATE}.cursor") == pytest.approx(16, abs=0.7)
+
+
+def test_the_camera_follows_the_vehicle_when_told_to(opened):
+    opened.press("f")
+    for t in (8, 15):
+        opened.js(f"{STATE}.setCursor({t})")
+        opened.settle()
+        target = opened.js("companionPage.page.scene.controls.target.toArray()")
+        assert target == pytest.approx(opened.js("companionPage.page.scene.craft.position.toArray()"))
+    opened.press("f")
 
 
 def test_a_layer_can_be_put_away(opened):
@@ -284,6 +299,7 @@ def test_paper_gets_every_plot(opened, flown):
     pdf = opened.call("Page.printToPDF", printBackground=True)["data"]
     assert len(pdf) > 50_000
     assert opened.js("companionPage.page.plots.all.every((p) => p.drawn)")
+    assert not opened.js("document.documentElement.classList.contains('printing')")
 
 
 def test_data_that_are_hostile_or_empty_still_make_a_page(browser: Browser, tmp_path):
@@ -318,6 +334,27 @@ def test_data_that_are_hostile_or_empty_still_make_a_page(browser: Browser, tmp_
     assert page.js("document.querySelectorAll('img').length") == 0
     assert page.js("document.querySelector('h1').textContent") == title
     assert page.complaints == []
+    page.close()
+
+
+def test_a_browser_without_webgl_shows_everything_but_the_scene(browser: Browser, report):
+    page = browser.page("about:blank")
+    no_webgl = """
+        const draw = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+          return kind.includes("webgl") ? null : draw.call(this, kind, ...more);
+        };"""
+    page.call("Page.addScriptToEvaluateOnNewDocument", source=no_webgl)
+    page.call("Page.navigate", url=report.as_uri())
+    page.until("window.companionPage?.ready")
+    assert "draws no WebGL" in page.js("document.querySelector('.scene').textContent")
+    left, top, width, height = plot_middle(page, "speed")
+    page.mouse("mouseMoved", left + width / 2, top + height / 2)
+    page.settle()
+    assert page.js(f"{STATE}.cursor") == pytest.approx(page.js(f"{STATE}.full[1]") / 2, abs=0.2)
+    for key in ("2", "f", "d", "+"):
+        page.press(key)
+    assert [c for c in page.complaints if "WebGL" not in c] == []
     page.close()
 
 

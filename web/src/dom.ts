@@ -49,7 +49,17 @@ export function icon(name: string): SVGElement {
       : { d: ICONS[name], fill: "none", stroke: "currentColor", "stroke-width": 1.8, "stroke-linejoin": "round", "stroke-linecap": "round" }));
 }
 
+const colours = new Map<string, string>();
+
 /** A colour of the present theme. */
 export function colour(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  let value = colours.get(name);
+  if (value === undefined) colours.set(name, (value = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()));
+  return value;
+}
+
+/** "light" or "dark", from now on. */
+export function setTheme(theme: string): void {
+  document.documentElement.dataset.theme = theme;
+  colours.clear();
 }

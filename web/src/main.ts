@@ -3,7 +3,7 @@
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { unpack, type DataJson, type EventJson, type HeaderJson, type HistogramJson, type MoverJson, type PlanJson, type SceneJson, type TableJson } from "./data";
-import { h, icon } from "./dom";
+import { h, icon, setTheme } from "./dom";
 import { Histogram } from "./histogram";
 import { keyboard } from "./keys";
 import { Link, LivePanel, liveConfig, type Append } from "./live";
@@ -168,7 +168,7 @@ try {
 }
 
 function applyTheme(): void {
-  document.documentElement.dataset.theme = chosen ?? (wanted.matches ? "dark" : "light");
+  setTheme(chosen ?? (wanted.matches ? "dark" : "light"));
   page?.state.tell("theme");
 }
 
@@ -182,10 +182,13 @@ function toggleTheme(): void {
   applyTheme();
 }
 
-// Paper is light, whatever the screen is.
+// Paper is light and narrow, whatever the screen is; nothing on it waits to come into sight.
 function print(before: boolean): void {
-  if (before) document.documentElement.dataset.theme = "light";
+  document.documentElement.classList.toggle("printing", before);
+  if (before) setTheme("light");
   else applyTheme();
+  page?.scene.drawNow();
+  page?.plots.drawAll();
 }
 
 // ---- begin

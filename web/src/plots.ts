@@ -136,7 +136,7 @@ export class TimePlot {
         y: { range: (_, low, high) => this.spread(low, high) },
       },
       axes: [
-        { ...axis, size: 22, gap: 2, space: 64, values: (_, splits, __, ___, step) => splits.map((s) => timeLabel(s, step, this.state.range)) },
+        { ...axis, size: 22, gap: 2, space: 64, values: (_, splits, __, ___, step) => splits.map((s, k) => timeLabel(s, step, this.state.range) + (k || this.state.range[1] > 120 ? "" : " s")) },
         { ...axis, size: 54, gap: 4, space: 26, values: (_, splits, __, ___, step) => splits.map((s) => tickLabel(s, step)) },
       ],
       series: [{}, ...this.unpacked().map((line, k) => {
@@ -266,13 +266,20 @@ export class Plots {
     state.on("cursor", () => this.all.forEach((p) => p.visible && p.moveCursor()));
     state.on("data", () => this.all.forEach((p) => p.update()));
     state.on("theme", () => this.all.forEach((p) => { p.restyle(); p.update(); }));
-    addEventListener("beforeprint", () => this.all.forEach((p) => p.update(true)));
   }
 
   add(plot: TimePlot): void {
     this.all.push(plot);
     this.sight.observe(plot.element);
     this.size.observe(plot.element);
+  }
+
+  /** Everything anew at once, in the colours and the width of now: paper has no below the fold. */
+  drawAll(): void {
+    for (const plot of this.all) {
+      plot.restyle();
+      plot.update(true);
+    }
   }
 
   redraw(): void {

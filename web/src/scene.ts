@@ -483,10 +483,6 @@ export class FlightScene {
     this.canvas.addEventListener("dblclick", () => this.resetCamera());
     this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.canvas.addEventListener("webglcontextrestored", () => this.rebuild());
-    addEventListener("beforeprint", () => {
-      this.moving3d = false;
-      this.render();
-    });
   }
 
   private useCamera: (object: PerspectiveCamera | OrthographicCamera) => void = () => undefined;
@@ -670,6 +666,14 @@ export class FlightScene {
       this.stage.add(this.goal);
     }
     this.invalidate();
+  }
+
+  /** At once, in the colours and the size of now. */
+  drawNow(): void {
+    this.moving3d = false;
+    this.rebuild();
+    this.resize();
+    this.render();
   }
 
   /** Give the graphics card back. */

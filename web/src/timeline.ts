@@ -59,7 +59,7 @@ export class Timeline {
     for (const { kind } of this.events) {
       if (this.known.has(kind)) continue;
       this.known.add(kind);
-      this.kinds.append(h("button.chip", {
+      this.kinds.append(h("button.chip.kind-chip", {
         type: "button", "aria-pressed": "true", "data-kind": kind,
         onclick: (event: Event) => {
           const hidden = !this.off.delete(kind);
@@ -102,8 +102,8 @@ export class Timeline {
     old?.classList.remove("now");
     if (!now) return;
     now.classList.add("now");
-    if (this.state.playing) {
-      const top = now.offsetTop - this.list.offsetTop;
+    if (!this.list.matches(":hover, :focus-within")) {
+      const top = now.offsetTop;
       if (top < this.list.scrollTop || top > this.list.scrollTop + this.list.clientHeight - 30) this.list.scrollTop = top - this.list.clientHeight / 2;
     }
   }

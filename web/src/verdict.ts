@@ -35,7 +35,7 @@ export class Verdict {
       header.duration_s > 0 ? `${clock(header.duration_s, 1)} flown` : "",
       header.checks.length ? (failed ? `${failed} of ${header.checks.length} checks failed` : `${held} of ${header.checks.length} checks held`) : "",
       header.loss.length ? (lost ? `${number(lost)} lost in recording` : "nothing lost") : "",
-      header.phase && header.ok !== null ? `ended ${header.phase}` : "",
+      header.phase && header.ok === false ? `ended as "${header.phase}"` : "",
     ].filter(Boolean);
     this.element.replaceChildren(
       h(`div.banner.${tone}`,
