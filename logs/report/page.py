@@ -67,7 +67,8 @@ def live_page(url: str, token: str, title: str = "live") -> str:
 
     Parameters
     ----------
-    url : of the WebSocket, such as ``ws://127.0.0.1:8700/live``; a path alone means the page's own host.
+    url : of the WebSocket, such as ``ws://127.0.0.1:8700/live``. A path alone means the page's own host; older browsers
+        do not count a WebSocket as the page's own origin and want it whole.
     token : goes with every order the page sends.
     """
     attribute = html.escape(json.dumps({"url": url, "token": token}), quote=True)

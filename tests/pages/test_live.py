@@ -101,6 +101,18 @@ def test_histograms_tables_and_the_scene_are_replaced_and_movers_and_plans_added
     assert live.complaints == []
 
 
+def test_the_ground_grows_with_a_flight_that_leaves_it(live: Page, server: LiveServer):
+    server.send({"append": {"path": [[0.0, 0, 0, 1], [1.0, 5, 5, 1]]}})
+    live.until(f"{PAGE}.scene.drawn.vertices === 2")
+    assert live.js(f"{PAGE}.scene.floor.high[0]") == 20
+    server.send({"append": {"path": [[2.0, 400, 30, 20]]}})
+    live.until(f"{PAGE}.scene.floor.high[0] >= 400")
+    x, y = live.js(f"{PAGE}.scene.screenOf([400, 30, 20])")
+    left, top, width, height = live.box(".scene")
+    assert left < x < left + width
+    assert top < y < top + height
+
+
 def test_a_moved_cursor_stays_where_it_is_until_live_is_pressed(live: Page, server: LiveServer):
     for k in range(40):
         server.send(moment(k))

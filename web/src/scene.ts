@@ -71,6 +71,7 @@ export class FlightScene {
   private side = 0;
   private sized = false;
   private soft = false;
+  private turned = false; // the camera is where a person put it
   private moving3d = false; // drawn coarsely, since more frames are coming
   private late = 0; // how late frames come, smoothed [ms]
   private settling = 0;
@@ -163,12 +164,25 @@ export class FlightScene {
     if ((more.path || more.truth || more.reference) && !this.rebuildSoon) {
       this.rebuildSoon = window.setTimeout(() => {
         this.rebuildSoon = 0;
+        if (this.outgrown()) {
+          this.rebuild();
+          if (!this.turned) this.resetCamera();
+          return;
+        }
         this.rebuildPath();
         this.fillLayerBar();
         this.moveCursor();
       }, 250);
     }
     this.moveCursor();
+  }
+
+  /** Whether the flight has left the ground that is drawn. */
+  private outgrown(): boolean {
+    const last = this.path.length - 1, floor = this.floor!;
+    if (last < 0) return false;
+    const n = this.path.n.at(last), e = this.path.e.at(last);
+    return n < floor.low[0] || n > floor.high[0] || e < floor.low[1] || e > floor.high[1];
   }
 
   lastTime(): number {
@@ -227,6 +241,7 @@ export class FlightScene {
     this.centre = toThree([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2]);
     this.box = [toThree(low), toThree(high)];
     this.reach = Math.max(4, Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]));
+    Object.assign(this.perspective, { near: this.reach / 1500, far: this.reach * 60 }).updateProjectionMatrix();
   }
 
   private rebuildStanding(): void {
@@ -469,6 +484,7 @@ export class FlightScene {
       controls.minDistance = 0.5;
       controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
       controls.addEventListener("change", () => this.invalidate());
+      controls.addEventListener("start", () => (this.turned = true));
       this.controls = controls;
     };
     camera(this.perspective);
@@ -518,11 +534,10 @@ export class FlightScene {
 
   resetCamera(): void {
     if (!this.controls) return;
+    this.turned = false;
     this.useCamera(this.view === "3D" ? this.perspective : this.flat);
     const { centre, reach, controls } = this;
     if (this.view === "3D") {
-      this.perspective.near = reach / 500;
-      this.perspective.far = reach * 60;
       controls.target.copy(this.fit(new Vector3(-0.42, 0.66, 0.9).normalize()));
     } else {
       const away = this.view === "top" ? new Vector3(0, 1, 1e-4) : this.side ? new Vector3(1, 0.0001, 0) : new Vector3(0, 0.0001, 1);
