@@ -7,7 +7,6 @@ its fields are named; otherwise the first differing byte is.
 
 import hashlib
 import struct
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from itertools import zip_longest
@@ -47,6 +46,7 @@ class Difference:
     recorded, produced : the two outputs; None where one side has none.
     kinds : what differs: ``NAME.field`` for each differing field, or one word on the whole output.
     text : the same for people, in one line, with the values.
+    values : recorded and produced value of each kind that is a field.
     """
 
     tick: int
@@ -55,6 +55,37 @@ class Difference:
     produced: Output | None
     kinds: tuple[str, ...]
     text: str
+    values: Mapping[str, tuple[Any, Any]] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class Change:
+    """All differences of one kind.
+
+    Attributes
+    ----------
+    kind : as in `Difference.kinds`.
+    count : pairs of outputs that differ so.
+    tick : of the first of them.
+    recorded, produced : the field's values there; None where the kind is no field.
+    largest : greatest difference of two numbers, over all pairs and elements; None where they are no numbers.
+    largest_tick : where that is.
+    """
+
+    kind: str
+    count: int
+    tick: int
+    recorded: Any = None
+    produced: Any = None
+    largest: float | None = None
+    largest_tick: int | None = None
+
+    def add(self, tick: int, recorded: Any, produced: Any) -> None:
+        """One pair more."""
+        self.count += 1
+        apart = _apart(recorded, produced)
+        if apart is not None and (self.largest is None or apart > self.largest):
+            self.largest, self.largest_tick = apart, tick
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +97,14 @@ class Comparison:
     outputs : pairs looked at; equal : those that are the same to the byte.
     first : the first difference, None if there is none.
     kinds : how many pairs differ in each kind (see `Difference.kinds`).
+    changes : the same in more words, in the same order: most first.
     """
 
     outputs: int
     equal: int
     first: Difference | None
     kinds: Mapping[str, int] = field(default_factory=dict)
+    changes: tuple[Change, ...] = ()
 
 
 def compare(recorded: Iterable[Output], produced: Iterable[Output]) -> Comparison:
@@ -83,17 +116,20 @@ def compare(recorded: Iterable[Output], produced: Iterable[Output]) -> Compariso
     """
     outputs = equal = 0
     first: Difference | None = None
-    kinds: Counter[str] = Counter()
+    changes: dict[str, Change] = {}
     for left, right in _paired(recorded, produced):
         outputs += 1
         if left is not None and right is not None and left.data == right.data:
             equal += 1
             continue
         difference = _difference(left, right)
-        kinds.update(difference.kinds)
+        for kind in difference.kinds:
+            values = difference.values.get(kind, (None, None))
+            changes.setdefault(kind, Change(kind, 0, difference.tick, *values)).add(difference.tick, *values)
         if first is None:
             first = difference
-    return Comparison(outputs, equal, first, dict(kinds.most_common()))
+    most = sorted(changes.values(), key=lambda change: -change.count)
+    return Comparison(outputs, equal, first, {change.kind: change.count for change in most}, tuple(most))
 
 
 def first_difference(recorded: Iterable[Output], produced: Iterable[Output]) -> Difference | None:
@@ -173,9 +209,10 @@ def _difference(recorded: Output | None, produced: Output | None) -> Difference:
         name = _name(present)
         kinds: tuple[str, ...] = (f"{name} only {side}",)
         text = f"{name} was {side}, and not {other}"
+        values: dict[str, tuple[Any, Any]] = {}
     else:
         present = recorded
-        kinds, text = _differing(recorded, produced)
+        kinds, text, values = _differing(recorded, produced)
     return Difference(
         tick=present.tick,
         channel=present.channel,
@@ -183,11 +220,12 @@ def _difference(recorded: Output | None, produced: Output | None) -> Difference:
         produced=produced,
         kinds=kinds,
         text=f"tick {present.tick}, {present.channel}: {text}",
+        values=values,
     )
 
 
-def _differing(recorded: Output, produced: Output) -> tuple[tuple[str, ...], str]:
-    """Name the fields that differ, or the first byte."""
+def _differing(recorded: Output, produced: Output) -> tuple[tuple[str, ...], str, dict[str, tuple[Any, Any]]]:
+    """Name the fields that differ, with their values, or the first byte."""
     one, other = _parts(recorded), _parts(produced)
     names = [name for name, _ in one]
     if names and names == [name for name, _ in other]:
@@ -200,16 +238,17 @@ def _differing(recorded: Output, produced: Output) -> tuple[tuple[str, ...], str
         if found:
             shown = ", ".join(f"{key} recorded {left!r}, produced {right!r}" for key, left, right in found[:4])
             more = f", and {len(found) - 4} fields more" if len(found) > 4 else ""
-            return tuple(key for key, _, _ in found), shown + more
+            values = {key: (left, right) for key, left, right in found}
+            return tuple(values), shown + more, values
     elif names and other:
         left, right = "+".join(names), "+".join(name for name, _ in other)
-        return (f"{left} became {right}",), f"recorded {left}, produced {right}"
+        return (f"{left} became {right}",), f"recorded {left}, produced {right}", {}
     offset = next(
         (at for at, pair in enumerate(zip(recorded.data, produced.data, strict=False)) if pair[0] != pair[1]),
         min(len(recorded.data), len(produced.data)),
     )
     sizes = f"{len(recorded.data)} and {len(produced.data)} bytes"
-    return (f"{_name(recorded)} bytes",), f"{_name(recorded)} differs from byte {offset} on ({sizes})"
+    return (f"{_name(recorded)} bytes",), f"{_name(recorded)} differs from byte {offset} on ({sizes})", {}
 
 
 def _name(output: Output) -> str:
@@ -243,6 +282,17 @@ def _parts(output: Output) -> list[tuple[str, dict[str, Any]]]:
             values["payload"] = packet.payload.hex()
         parts.append((name, values))
     return parts
+
+
+def _apart(left: Any, right: Any) -> float | None:
+    """The greatest difference of two numbers, or of numbers in equally long lists; None where there is none."""
+    if isinstance(left, list | tuple) and isinstance(right, list | tuple):
+        found = [_apart(*pair) for pair in zip(left, right, strict=False)] if len(left) == len(right) else []
+        return max((apart for apart in found if apart is not None), default=None)
+    if isinstance(left, int | float) and isinstance(right, int | float):
+        apart = abs(float(left) - float(right))
+        return apart if apart == apart else None
+    return None
 
 
 def _same(left: Any, right: Any) -> bool:

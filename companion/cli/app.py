@@ -195,11 +195,21 @@ def replay(
 
 
 @app.command()
-def rerun(log: LogFile, json: Json = False) -> None:
-    """Feed a recording's inputs to a fresh companion and compare every output, bit for bit (exit 3: they differ)."""
+def rerun(
+    log: LogFile,
+    sets: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="With this changed, such as limits.speed=2 or seed=3."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Feed a recording's inputs to a fresh companion and compare every output, bit for bit (exit 3: they differ).
+
+    With --set what differs is listed by message and field, and is no failure.
+    """
     from companion.cli.rerun import rerun_log
 
-    raise typer.Exit(rerun_log(log, json))
+    raise typer.Exit(rerun_log(log, json, sets or []))
 
 
 @log_app.command("info")

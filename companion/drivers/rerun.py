@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from companion.core import Companion, CompanionConfig
+from companion.drivers.changes import Changes, changed_config, changed_mission
 from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, tick_record, to_input
 from companion.drivers.tick import Tick
 from companion.errors import RerunError
@@ -14,6 +15,8 @@ from logs.compare import Comparison, Output, compare
 from logs.reader import Recording
 from logs.table import ticks
 from wire.datagram import Datagram
+
+NOTHING: Changes = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,12 +29,14 @@ class Rerun:
     comparison: Comparison
 
 
-def fresh_companion(recording: Recording) -> Companion:
-    """A companion set up as the recorded one was.
+def fresh_companion(recording: Recording, changes: Changes = NOTHING) -> Companion:
+    """A companion set up as the recorded one was, but for `changes`.
 
     Raises
     ------
-    RerunError : the recording has no mission or no configuration, or one that this version does not understand.
+    RerunError : the recording has no mission or no configuration, or one that this version does not understand; or a
+        change that it has no place for.
+    MissionError : the changed mission is none.
     """
     attachment = recording.attachments.get(MISSION_ATTACHMENT)
     stored = recording.metadata.get(CONFIG_METADATA, {}).get("config")
@@ -43,18 +48,25 @@ def fresh_companion(recording: Recording) -> Companion:
         config = CompanionConfig(**values)
     except (ValueError, TypeError) as error:
         raise RerunError(f"{recording.path}: its configuration is not one of this version: {error}") from error
-    return Companion(parse_mission(attachment.data, f"{recording.path}: {MISSION_ATTACHMENT}"), config)
+    file = f"{recording.path}: {MISSION_ATTACHMENT}{' as changed' if changes else ''}"
+    data = changed_mission(attachment.data, changes, file)
+    return Companion(parse_mission(data, file), changed_config(config, changes) if changes else config)
 
 
-def rerun(recording: Recording, progress: Callable[[Tick], None] = lambda tick: None) -> Rerun:
+def rerun(
+    recording: Recording, progress: Callable[[Tick], None] = lambda tick: None, changes: Changes = NOTHING
+) -> Rerun:
     """Feed the recorded inputs to a fresh companion and compare.
+
+    Nothing is planned again: plans are inputs, and those that were recorded are flown, whatever `changes` say.
 
     Raises
     ------
-    RerunError : not a recording of a companion.
+    RerunError : not a recording of a companion; or a change that it has no place for.
+    MissionError : the changed mission is none.
     RecordingError : ticks are missing or incomplete in the middle of the file.
     """
-    companion = fresh_companion(recording)
+    companion = fresh_companion(recording, changes)
     recorded: list[Output] = []
     produced: list[Output] = []
     count, first_us, last_us = 0, 0, 0

@@ -12,8 +12,9 @@ from mcap_protobuf.decoder import DecoderFactory
 
 from companion.cli.rerun import rerun_log
 from companion.cli.simulate import simulate_mission
+from companion.drivers.changes import changes_of
 from companion.drivers.rerun import rerun
-from companion.errors import RerunError
+from companion.errors import MissionError, RerunError
 from logs.reader import Recording
 
 
@@ -143,3 +144,57 @@ def test_a_file_that_is_no_recording_of_a_companion_is_one_line(tmp_path):
         writer.finish()
     with pytest.raises(RerunError, match="no mission and configuration"):
         rerun_log(target, as_json=False)
+
+
+def test_what_a_changed_limit_changes_is_listed_by_field_with_when_first_and_how_much_at_most(recording, capsys):
+    assert rerun_log(recording, as_json=True, sets=["limits.climb=0.8"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["ok"]
+    assert result["set"] == {"limits.climb": 0.8}
+    assert 0 < result["equal"] < result["outputs"]
+    listed = {change["what"]: change for change in result["changes"]}
+    sent = listed["SET_POSITION_TARGET_LOCAL_NED.vz"]
+    assert sent["times"] == result["differences"]["SET_POSITION_TARGET_LOCAL_NED.vz"] > 100
+    assert sent["largest"] > 0.1  # it was told to climb at 1 m/s
+    assert sent["recorded"] != sent["produced"]
+    first = min(change["first_tick"] for change in result["changes"])
+    assert result["first_difference"].startswith(f"tick {first}, ")
+    assert sent["largest_tick"] >= sent["first_tick"] >= first
+
+
+def test_a_changed_seed_of_the_configuration_changes_what_is_asked_of_the_planner_and_no_more(recording, capsys):
+    assert rerun_log(recording, as_json=True, sets=["seed=7"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["seed"] == 7
+    assert result["differences"] == {"PlanWanted.seed": 1}
+    assert rerun_log(recording, as_json=False, sets=["seed=7"]) == 0
+    assert "1 x PlanWanted.seed from tick" in capsys.readouterr().out
+
+
+def test_a_change_to_what_it_was_changes_nothing(recording, capsys):
+    assert rerun_log(recording, as_json=True, sets=["seed=1", "limits.climb=1.0", "steps.0.takeoff.altitude=1.5"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["equal"] == result["outputs"]
+
+
+@pytest.mark.parametrize(
+    ("text", "error", "told"),
+    [
+        ("limits.climb", RerunError, "expected KEY=VALUE"),
+        ("limts.climb=1", RerunError, "limts.climb: found an unknown key"),
+        ("limits.climb=fast", MissionError, "limits.climb: found 'fast'"),
+        ("limits.clim=1", MissionError, "did you mean climb"),
+        ("seed=fast", RerunError, "seed: found 'fast', expected a valid integer"),
+        ("steps.99.hold=1", RerunError, "found '99', expected the number of one of"),
+        ("name.first=1", RerunError, "expected a mapping or a list"),
+        ("seed=[", RerunError, "expected a value as YAML"),
+    ],
+)
+def test_a_change_that_has_no_place_is_one_line_that_names_it(recording, text, error, told):
+    with pytest.raises(error, match=re.escape(told)):
+        rerun_log(recording, as_json=False, sets=[text])
+
+
+def test_the_same_key_twice_is_refused():
+    with pytest.raises(RerunError, match="each key once"):
+        changes_of(["seed=1", "seed=2"])
