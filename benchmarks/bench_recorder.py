@@ -83,6 +83,7 @@ class Measured:
     other_drops: int
     cpu_share: float
     memory_mb: tuple[float, float]  # after 2 s, and at the end
+    stall_ms: tuple[float, float]  # longest time in which nothing was received, and our own CPU time in it
     file_mb: float
 
 
@@ -113,12 +114,15 @@ def receive(
             while not wait([link], 1.0):
                 pass
             start, cpu = time.monotonic(), time.process_time()
-            deadline, quiet = start + TICK_S, 0
+            deadline, quiet, stall, then = start + TICK_S, 0, (0.0, 0.0), (start, cpu)
             while quiet < 25:
                 inputs = []
                 while (left := deadline - time.monotonic()) > 0:
                     for ready in wait([link], left):
                         inputs += ready.receive()
+                        now = time.monotonic(), time.process_time()
+                        stall = max(stall, (1e3 * (now[0] - then[0]), 1e3 * (now[1] - then[1])))
+                        then = now
                 now_us = (time.monotonic_ns() + epoch_ns) // 1000
                 keep(inputs, now_us, tick)
                 received += len(inputs)
@@ -133,9 +137,8 @@ def receive(
             sent = int(process.stdout.read())
         kept, other = closed if closed is not None else (received, 0)
         share = cpu / seconds
-        return Measured(
-            name, sent, kept, link.counters.drops, other, share, (memory, end_memory), path.stat().st_size / 1e6
-        )
+        file_mb, drops = path.stat().st_size / 1e6, link.counters.drops
+        return Measured(name, sent, kept, drops, other, share, (memory, end_memory), stall, file_mb)
 
 
 def ours(path: Path, link: UdpLink) -> tuple[Keep, Callable[[], Any]]:
@@ -210,7 +213,15 @@ def mcap_json(path: Path, link: UdpLink) -> tuple[Keep, Callable[[], Any]]:
 
 COLUMNS = (
     *("writer", "datagrams/s", "seconds", "sent", "kept", "kernel drops", "other drops", "unexplained"),
-    *("CPU of a core", "us a datagram", "MB of memory after 2 s", "at the end", "MB on disk per 10^6", "load"),
+    *(
+        "CPU of a core",
+        "us a datagram",
+        "MB of memory after 2 s",
+        "at the end",
+        "MB on disk per 10^6",
+        "longest stall ms (our CPU in it)",
+        "load",
+    ),
 )
 
 
@@ -220,7 +231,7 @@ def row(m: Measured, rate: int, seconds: float) -> tuple[str, ...]:
         *(m.name, str(rate), f"{seconds:g}", str(m.sent), str(m.kept), str(m.kernel_drops), str(m.other_drops)),
         *(str(unexplained), f"{100 * m.cpu_share:.0f} %", f"{1e6 * m.cpu_share * seconds / max(1, m.kept):.1f}"),
         *(f"{m.memory_mb[0]:.0f}", f"{m.memory_mb[1]:.0f}", f"{1e6 * m.file_mb / max(1, m.kept):.0f}"),
-        f"{os.getloadavg()[0]:.1f}",
+        *(f"{m.stall_ms[0]:.0f} ({m.stall_ms[1]:.0f})", f"{os.getloadavg()[0]:.1f}"),
     )
 
 
