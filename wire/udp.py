@@ -174,8 +174,7 @@ class UdpLink:
     def receive(self) -> list[Received]:
         """Take what has arrived, at most `MAX_DRAIN` datagrams, in order; never waits, never raises for a peer."""
         taken: list[Received] = []
-        # Real time minus monotonic time, taken once a drain: the kernel's stamps are in real time.
-        offset_ns = time.time_ns() - time.monotonic_ns()
+        offset_ns = _real_minus_monotonic_ns()  # once a drain: the kernel's stamps are in real time
         while len(taken) < MAX_DRAIN:
             try:
                 size, ancillary, _, sender = self._socket.recvmsg_into((self._buffer,), _ANCILLARY)
@@ -294,6 +293,15 @@ def _tune(udp: socket.socket) -> None:
         udp.setsockopt(socket.IPPROTO_IPV6, _IPV6_RECVERR, 1)
     else:
         udp.setsockopt(socket.IPPROTO_IP, _IP_RECVERR, 1)
+
+
+def _real_minus_monotonic_ns() -> int:
+    """What the wall clock is ahead of the monotonic one; read again when we were put aside between the two."""
+    for _ in range(3):
+        before_ns, real_ns, after_ns = time.monotonic_ns(), time.time_ns(), time.monotonic_ns()
+        if after_ns - before_ns < 20_000:
+            break
+    return real_ns - (before_ns + after_ns) // 2
 
 
 def _drops_of(udp: socket.socket) -> int:
