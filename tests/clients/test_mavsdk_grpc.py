@@ -29,6 +29,8 @@ from mavsdk_grpc.param import ParamError
 from mavsdk_grpc.telemetry import FlightMode, LandedState
 from pymavlink.mavftp import MAVFTP
 
+from logs.container import bare_tail
+
 pytestmark = pytest.mark.udp
 
 
@@ -113,8 +115,8 @@ def test_the_recording_comes_by_the_log_protocol_and_by_ftp(tmp_path: Path) -> N
         whole = (tmp_path / "record" / name).read_bytes()
         by_log, by_ftp = target.read_bytes(), (tmp_path / name).read_bytes()
         assert 0 < len(by_log) == entry.size_bytes <= len(by_ftp) < len(whole)
-        assert whole.startswith(by_log)
-        assert whole.startswith(by_ftp)
+        for part in (by_log, by_ftp):  # an unfinished file has an end already, which what comes next is written over
+            assert whole.startswith(part[: -len(bare_tail(0))])
 
     fly(story, "--record", str(tmp_path / "record"))
 
