@@ -130,6 +130,18 @@ def test_one_cursor_moves_vehicle_plots_and_timeline_together(opened):
     assert shown == pytest.approx(north, abs=0.006)
 
 
+def test_the_mouse_looks_in_passing_and_a_click_stays(opened):
+    left, top, width, height = plot_middle(opened, "speed")
+    opened.mouse("mouseMoved", left + 0.2 * width, top + height / 2)
+    assert opened.js(f"{STATE}.cursor") < 10
+    opened.mouse("mouseMoved", left + 0.2 * width, top - 20)
+    assert opened.js(f"{STATE}.cursor") == 14  # where it was put before
+    opened.click(left + 0.8 * width, top + height / 2)
+    opened.mouse("mouseMoved", left + 0.2 * width, top + height / 2)
+    opened.mouse("mouseMoved", left + 0.2 * width, top - 20)
+    assert opened.js(f"{STATE}.cursor") == pytest.approx(0.8 * opened.js(f"{STATE}.full[1]"), abs=0.2)
+
+
 def test_a_drag_zooms_every_time_axis_and_a_double_click_shows_all(opened):
     left, top, width, height = plot_middle(opened, "altitude")
     full = opened.js(f"{STATE}.full")
@@ -144,6 +156,21 @@ def test_a_drag_zooms_every_time_axis_and_a_double_click_shows_all(opened):
     left, top, width, height = plot_middle(opened, "error")
     opened.click(left + width / 2, top + height / 2, count=2)
     assert opened.js(f"{STATE}.range") == full
+
+
+def test_ctrl_and_the_wheel_zoom_about_the_pointer_and_shift_and_a_drag_pan(opened):
+    left, top, width, height = plot_middle(opened, "altitude")
+    full = opened.js(f"{STATE}.full[1]")
+    place = {"x": left + width / 2, "y": top + height / 2}
+    opened.mouse("mouseWheel", **place, deltaX=0, deltaY=-300, modifiers=2)
+    opened.until(f"{STATE}.range[1] - {STATE}.range[0] < {0.5 * full}")
+    low, high = opened.js(f"{STATE}.range")
+    assert (low + high) / 2 == pytest.approx(full / 2, abs=0.2)
+    opened.mouse("mousePressed", **place, button="left", buttons=1, modifiers=8)
+    opened.mouse("mouseMoved", place["x"] - width / 4, place["y"], button="left", buttons=1, modifiers=8)
+    opened.mouse("mouseReleased", place["x"] - width / 4, place["y"], button="left", modifiers=8)
+    assert opened.js(f"{STATE}.range[0]") == pytest.approx(low + (high - low) / 4, abs=0.1)
+    assert opened.js(f"{STATE}.range[1] - {STATE}.range[0]") == pytest.approx(high - low)
 
 
 def test_keys_move_the_cursor_zoom_play_and_help(opened):
@@ -291,6 +318,14 @@ def test_a_phone_shows_one_column_with_the_scene_first_and_nothing_beyond_its_ed
     page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
     page.settle()
     assert page.js(f"{STATE}.cursor") == pytest.approx(page.js(f"{STATE}.full[1]") / 4, abs=0.3)
+    for kind, spread in (("touchStart", 30), ("touchMove", 60), ("touchMove", 90)):
+        fingers = [{"x": left + width / 2 + side * spread, "y": top + height / 2, "id": side + 1} for side in (-1, 1)]
+        page.call("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
+    page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    page.settle()
+    low, high = page.js(f"{STATE}.range")
+    assert high - low == pytest.approx(page.js(f"{STATE}.full[1]") / 3, rel=0.05)
+    assert (low + high) / 2 == pytest.approx(page.js(f"{STATE}.full[1]") / 2, abs=0.5)
     assert page.complaints == []
     page.close()
 

@@ -1,5 +1,5 @@
 /**
- * How a time axis is handled, the same on every plot: hover or a finger moves the cursor, a drag zooms, shift and drag
+ * How a time axis is handled, the same on every plot: hover looks, a click or a finger puts the cursor, a drag zooms, shift and drag
  * pans, two fingers or ctrl and the wheel zoom, a double click shows the whole flight.
  */
 
@@ -49,7 +49,7 @@ export function timeGestures(area: HTMLElement, state: State, toTime: (px: numbe
       return;
     }
     if (!pressed) {
-      if (!state.playing && !state.follow) state.setCursor(toTime(here));
+      state.hover(toTime(here));
       return;
     }
     pressed.moved ||= Math.abs(here - pressed.x) > CLICK_PX;
@@ -83,6 +83,7 @@ export function timeGestures(area: HTMLElement, state: State, toTime: (px: numbe
   };
   area.addEventListener("pointerup", release);
   area.addEventListener("pointercancel", release);
+  area.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && state.hover(null));
   area.addEventListener("dblclick", () => state.resetRange());
   area.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && !event.metaKey && !event.shiftKey) return;

@@ -42,7 +42,7 @@ export function keyboard(state: State, scene: FlightScene, toggleTheme: () => vo
       h("h2", "Keys and gestures"),
       h("dl", table.filter((k) => k.shown).map((k) => h("div", h("dt", k.shown.split(" ").map((name) => h("kbd", name))), h("dd", k.what)))),
       h("dl",
-        h("div", h("dt", "plots"), h("dd", "hover moves the cursor, drag zooms, shift and drag pans, ctrl and wheel zooms, double click shows all")),
+        h("div", h("dt", "plots"), h("dd", "hover looks, a click puts the cursor, drag zooms, shift and drag pans, ctrl and wheel zooms, double click shows all")),
         h("div", h("dt", "scene"), h("dd", "drag turns, wheel or pinch zooms, right drag or two fingers move; a click on the path jumps there; double click resets")),
         h("div", h("dt", "touch"), h("dd", "one finger moves the cursor on a plot, two zoom it"))),
       h("button.primary", { type: "button", onclick: () => dialog.close() }, "close")));

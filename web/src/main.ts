@@ -43,7 +43,7 @@ class Page {
     const low = Math.min(0, this.scene.firstTime()), high = Math.max(live ? 0 : data.header.duration_s || 0, this.scene.lastTime(), ...events.slice(-1).map((e) => e.t), low + 1e-3);
     state.full = [low, high];
     state.range = [low, high];
-    state.cursor = live ? high : startOf(data, low);
+    state.setCursor(live ? high : startOf(data, low));
     this.timeline = new Timeline(state, events);
     this.verdict = new Verdict(data.header);
     const transport = new Transport(state, () => events);

@@ -14,6 +14,8 @@ export class State {
   /** What the plots show [s]. */
   range: [number, number] = [0, 1];
   cursor = 0;
+  /** Where the cursor goes back to when the mouse leaves a plot: where it was last put on purpose. */
+  private pinned = 0;
   playing = false;
   speed = 1;
   /** Live: the cursor stays at the newest moment and the range follows it. */
@@ -57,7 +59,7 @@ export class State {
   }
 
   private followNow(): void {
-    this.cursor = this.full[1];
+    this.cursor = this.pinned = this.full[1];
     this.range = this.window ? [Math.max(this.full[0], this.full[1] - this.window), this.full[1]] : [...this.full];
     if (this.range[1] - this.range[0] < 1) this.range[1] = this.range[0] + 1;
     this.tell("cursor");
@@ -73,7 +75,14 @@ export class State {
 
   setCursor(t: number): void {
     if (this.follow) this.setFollow(false);
-    this.cursor = Math.max(this.full[0], Math.min(this.full[1], t));
+    this.cursor = this.pinned = Math.max(this.full[0], Math.min(this.full[1], t));
+    this.tell("cursor");
+  }
+
+  /** Look at a moment in passing; null: no longer. */
+  hover(t: number | null): void {
+    if (this.playing || this.follow) return;
+    this.cursor = t === null ? this.pinned : Math.max(this.full[0], Math.min(this.full[1], t));
     this.tell("cursor");
   }
 
