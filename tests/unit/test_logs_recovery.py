@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import random
+import time
 import tracemalloc
 from collections import Counter
 from contextlib import suppress
@@ -250,6 +251,32 @@ def test_a_chunk_that_claims_or_unpacks_to_enormous_sizes_takes_no_memory(whole:
     assert strict(path) == strict(whole)
     assert not outcome.lost_bytes
     assert peak < 2 * len(data)
+
+
+def test_no_damage_takes_more_memory_than_twice_the_file_or_more_time_than_it_is_long(
+    whole: Path, tmp_path: Path
+) -> None:
+    data, path, rng = whole.read_bytes(), tmp_path / "damaged.mcap", random.Random(6)
+    files = [data[: rng.randrange(100_000, len(data))] for _ in range(3)]
+    for _ in range(5):
+        damaged = bytearray(data)
+        for position in rng.sample(range(len(data)), 30):
+            damaged[position] ^= rng.randrange(1, 256)
+        files.append(bytes(damaged))
+    starts = [b"\x06\x40\0\0\0\0\0\0\0", b"\x0c\x08\0\0\0\0\0\0\0", b"\x09\xff\xff\0\0\0\0\0\0", b"\x07"]
+    files += [data[:20_000] + start * (200_000 // len(start)) for start in starts]  # what looks like records everywhere
+    for content in files:
+        path.write_bytes(content)
+        tracemalloc.start()
+        began = time.process_time()
+        try:
+            recover(path)
+        finally:
+            took, peak = time.process_time() - began, tracemalloc.get_traced_memory()[1]
+            tracemalloc.stop()
+        assert peak < 2 * len(content)
+        assert took < 5.0
+        strict(path)
 
 
 def test_a_recovery_killed_at_any_write_can_be_begun_again(whole: Path, tmp_path: Path) -> None:
