@@ -1,5 +1,6 @@
 # Each target sets up .venv by itself when it is missing or older than what it is made from.
 PYTHON ?= python3
+JOBS ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
@@ -15,8 +16,9 @@ help:            ## show this
 demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
 	$(BIN)/companion demo
 
-test: $(STAMP)   ## every test, but for those of `make soak`; JOBS=2: in two processes
-	$(BIN)/python -m pytest -q -m "not soak" $(if $(JOBS),-n $(JOBS) --dist loadgroup)
+test: $(STAMP)   ## every test, but for those of `make soak`: in JOBS processes, then what flies in real time by itself
+	$(BIN)/python -m pytest -q -m "not soak and not udp" -n $(JOBS) --dist loadgroup
+	$(BIN)/python -m pytest -q -m "udp and not soak"
 
 soak: $(STAMP)   ## tests that are judged by the clock, or long: want a machine of their own
 	$(BIN)/python -m pytest -q -m soak
