@@ -253,6 +253,14 @@ def test_a_layer_can_be_put_away(opened):
         assert (np.median(scene_at(opened, place)[..., 3]) > 60) == shown
 
 
+def test_the_timeline_opens_at_the_moment_the_cursor_is_at(browser: Browser, report):
+    page = browser.page(report.as_uri(), 900, 500)
+    page.until("window.companionPage?.ready")
+    left, top, width, height = page.box(".events")
+    assert top < page.box(".event.now")[1] < top + height
+    page.close()
+
+
 def test_events_are_filtered_by_level_kind_and_words_and_lead_to_their_moment(opened, flown):
     rows = "document.querySelectorAll('.event').length"
     assert opened.js(rows) == len(flown["events"])

@@ -202,6 +202,7 @@ function show(data: DataJson, link: Link | null): Page {
   old?.end();
   document.querySelector(".waiting")?.remove();
   document.body.append(next.element);
+  next.timeline.mark(true);
   return next;
 }
 

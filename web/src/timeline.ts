@@ -93,16 +93,16 @@ export class Timeline {
     }, h("span.t", clock(event.t)), h("span.kind", event.kind), h("span.text", event.text)));
   }
 
-  /** The last event before the cursor is marked. */
-  private mark(): void {
+  /** The last event before the cursor is marked, and brought into sight when it changes (or `anew`). */
+  mark(anew = false): void {
     let now: HTMLElement | undefined;
     for (const { event, element } of this.rows) if (event.t <= this.state.cursor + 1e-6) now = element;
     const old = this.list.querySelector(".now");
-    if (old === now) return;
-    old?.classList.remove("now");
-    if (!now) return;
-    now.classList.add("now");
-    if (!this.list.matches(":hover, :focus-within")) {
+    if (old !== now) {
+      old?.classList.remove("now");
+      now?.classList.add("now");
+    } else if (!anew) return;
+    if (now && !this.list.matches(":hover, :focus-within")) {
       const top = now.offsetTop;
       if (top < this.list.scrollTop || top > this.list.scrollTop + this.list.clientHeight - 30) this.list.scrollTop = top - this.list.clientHeight / 2;
     }
