@@ -89,6 +89,9 @@ class Parts:
         self.container: Container | None = None
         self._file: BinaryIO | None = None
         self._first, self._metadata, self._attachments = path, metadata, attachments
+        others = later_parts(path)
+        if others:
+            raise RecordingError(path, f"{others[0].name} is there already, a part of another recording of this name")
         try:
             self._open(path, self._part(1, "the flight began", None) if numbered else {})
         except FileExistsError:

@@ -392,13 +392,14 @@ class Recorder:
         self._gap = Gap(reason, self._whole_to_ns, missing=before)
         self.failure = self.failure or f"writing failed: {reason}"
         self._retry_at = self._now_ns() + _ns(RETRY_S)
-        self._notices.append(f"nothing is recorded: {reason}; a new part is tried every {RETRY_S:g} s")
+        goes_on = "the flight goes on without" if self._broken else f"a new part is tried every {RETRY_S:g} s"
+        self._notices.append(f"nothing is recorded: {reason}; {goes_on}")
 
     def _break(self, error: Exception) -> None:
         """A fault of ours: nothing is recorded any more, and `close` says so."""
+        self._broken = True
         self._dropped_raw += 1
         self._abandon(OSError(0, f"{type(error).__name__}: {error}"))
-        self._broken = True
 
     def _retry(self) -> None:
         """A new part, if it is time for one and there is room."""

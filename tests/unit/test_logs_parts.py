@@ -277,3 +277,22 @@ def test_a_disk_that_fills_up_is_told_then_decoded_no_more_then_left_alone(
 def test_the_bounds_shrink_with_a_small_disk() -> None:
     assert Room().of_disk(1 << 40) == Room()
     assert Room().of_disk(4_000_000) == Room(warn=2_000_000, raw_only=800_000, stop=200_000)
+
+
+def test_parts_of_another_recording_are_not_taken_for_ones_own(tmp_path: Path) -> None:
+    (tmp_path / "a.part0002.mcap").write_bytes(b"older")
+    with pytest.raises(RecordingError, match=r"a\.mcap: a\.part0002\.mcap is there already"):
+        Recorder(tmp_path / "a.mcap", metadata={}, threaded=False)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.part0002.mcap"]
+
+
+def test_a_fault_of_ours_ends_the_recording_with_a_word_and_leaves_it_readable(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=True)
+    fly(recorder, 1.0)
+    recorder.datagram("autopilot", "rx", None, log_time_ns=1, now_us=1, tick=51)  # type: ignore[arg-type]
+    fly(recorder, 1.0, 52)
+    with pytest.raises(RecordingError, match=r"writing failed: TypeError: .* \d+ entries are missing at its end"):
+        recorder.close()
+    assert "the flight goes on without" in recorder.notices()[0]
+    strict(tmp_path / "a.mcap")
+    assert recorder.counters.dropped_raw >= 201
