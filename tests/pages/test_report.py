@@ -256,7 +256,7 @@ def test_a_layer_can_be_put_away(opened):
 def test_the_timeline_opens_at_the_moment_the_cursor_is_at(browser: Browser, report):
     page = browser.page(report.as_uri(), 900, 500)
     page.until("window.companionPage?.ready")
-    left, top, width, height = page.box(".events")
+    _, top, _, height = page.box(".events")
     assert top < page.box(".event.now")[1] < top + height
     page.close()
 
