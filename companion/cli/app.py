@@ -6,9 +6,12 @@ stderr without a traceback. Heavy imports happen inside the commands, so that `-
 
 import sys
 from pathlib import Path
-from typing import Annotated, Literal, NoReturn
+from typing import TYPE_CHECKING, Annotated, Literal, NoReturn
 
 import typer
+
+if TYPE_CHECKING:
+    from logs.selection import Selection
 
 app = typer.Typer(
     name="companion",
@@ -186,12 +189,39 @@ def replay(
     log: LogFile,
     to: Annotated[str, typer.Option(metavar="URL", help="Ground station, e.g. udpout:127.0.0.1:14550.")],
     rate: Annotated[float, typer.Option("-r", "--rate", help="Speed, 1 is real time.", min=0.001, max=1000.0)] = 1.0,
+    start: Start = 0.0,
+    duration: Duration = None,
+    topic: Topics = None,
+    message: Messages = None,
+    sysid: Systems = None,
+    endpoint: Annotated[
+        str | None, typer.Option("--endpoint", metavar="NAME", help="Link to replay (default: the vehicle's).")
+    ] = None,
+    loop: Annotated[bool, typer.Option("--loop", help="Again and again, until it is ended.")] = False,
+    answer: Annotated[
+        bool, typer.Option(help="Answer a ground station that asks for parameters and the mission.")
+    ] = True,
+    to_a_vehicle: Annotated[
+        bool,
+        typer.Option(
+            "--send-recorded-commands-to-a-vehicle",
+            help="Send what was sent to the vehicle, setpoints and commands, and nothing else: IT WILL OBEY.",
+        ),
+    ] = False,
     json: Json = False,
 ) -> None:
-    """Send a recording's vehicle traffic to a ground station, with its original spacing."""
+    """Send a recording's vehicle traffic to a ground station, with its original spacing.
+
+    At a terminal space pauses, the right arrow sends one datagram, q ends.
+    """
     from companion.cli.replay import replay_log
 
-    raise typer.Exit(replay_log(log, to, rate, json))
+    wanted = _selection(topic, message, sysid, start, duration)
+    rounds = None if loop else 1
+    code = replay_log(
+        log, to, rate, json, wanted=wanted, link_name=endpoint, rounds=rounds, answer=answer, to_a_vehicle=to_a_vehicle
+    )
+    raise typer.Exit(code)
 
 
 @app.command()
@@ -228,6 +258,21 @@ def log_recover(
     from companion.cli.log import recover_logs
 
     raise typer.Exit(recover_logs(logs, json))
+
+
+def _selection(
+    topics: list[str] | None,
+    names: list[str] | None,
+    systems: list[int] | None,
+    start_s: float,
+    duration_s: float | None,
+) -> "Selection":
+    from logs.selection import Selection
+
+    try:
+        return Selection(tuple(topics or ()), tuple(names or ()), tuple(systems or ()), (), start_s, duration_s)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from error
 
 
 FLIGHT_KEYS = (

@@ -1,0 +1,162 @@
+"""The decoded messages of a recording as plain values: what exports, look-up and comparison read.
+
+Any protobuf channel is a source, by the descriptor in the file: packets, our own records, mirrors, imported logs.
+
+Values are as they were: 64-bit integers exact, NaN a NaN. A 32-bit float becomes the shortest decimal number that is
+the same 32-bit float (0.1, not 0.10000000149011612). ``uint8[n]`` of MAVLink is a list of numbers.
+"""
+
+import math
+import struct
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from google.protobuf.descriptor import Descriptor, FieldDescriptor
+
+from logs.reader import RecordedMessage, Recording
+from logs.transcode import PACKAGE
+
+_FLOAT = struct.Struct("<f")
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One decoded message.
+
+    Attributes
+    ----------
+    topic, name : such as ``/mavlink/1/1/ATTITUDE`` and ``ATTITUDE``.
+    system, component : who sent it; None where it is no packet.
+    log_time_ns, tick : as recorded.
+    values : by field, in the order of the schema; nested messages are dictionaries, repeated fields lists.
+    """
+
+    topic: str
+    name: str
+    system: int | None
+    component: int | None
+    log_time_ns: int
+    tick: int
+    values: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A field of a schema: its name, its kind (``int``, ``int64``, ``uint64``, ``float``, ``double``, ``bool``,
+    ``str``, ``bytes``, ``message``), and whether it is a list."""
+
+    name: str
+    kind: str
+    repeated: bool
+
+
+def rows(recording: Recording, messages: Iterable[RecordedMessage]) -> Iterator[Row]:
+    """Decode what can be decoded; raw datagrams are passed over.
+
+    Raises
+    ------
+    RecordingError    The bytes of a message do not fit their own schema.
+    """
+    for message in messages:
+        if message.channel.schema:
+            yield row(recording, message)
+
+
+def row(recording: Recording, message: RecordedMessage) -> Row:
+    """One message, which has a schema, decoded."""
+    name = message.channel.schema.rpartition(".")[2]
+    system, component = sender(message.channel.topic)
+    values = plain(recording.decode(message))
+    return Row(message.channel.topic, name, system, component, message.log_time_ns, message.tick, values)
+
+
+def sender(topic: str) -> tuple[int | None, int | None]:
+    """System and component in the topic of a decoded packet; None, None in any other."""
+    parts = topic.split("/")
+    if len(parts) == 5 and parts[1] == "mavlink" and parts[2].isdecimal() and parts[3].isdecimal():
+        return int(parts[2]), int(parts[3])
+    return None, None
+
+
+def columns(recording: Recording, message: RecordedMessage) -> tuple[Column, ...]:
+    """The fields of a message's schema."""
+    descriptor: Descriptor = recording.decode(message).DESCRIPTOR
+    octets = descriptor.full_name.startswith(f"{PACKAGE}.")
+    return tuple(
+        Column(field.name, "int", True)
+        if octets and field.type == FieldDescriptor.TYPE_BYTES
+        else Column(field.name, _KINDS.get(field.type, "int"), field.is_repeated)
+        for field in descriptor.fields
+    )
+
+
+def plain(message: Any) -> dict[str, Any]:
+    """The values of a protobuf message."""
+    descriptor = message.DESCRIPTOR
+    readers = _READERS.get(descriptor)
+    if readers is None:
+        readers = _READERS[descriptor] = _readers(descriptor)
+    return {name: read(message) for name, read in readers}
+
+
+def shortest(value: float) -> float:
+    """The shortest decimal number that is the same 32-bit float as `value`."""
+    if not math.isfinite(value):
+        return value
+    packed = _FLOAT.pack(value)
+    for digits in (6, 7, 8):
+        short = float(f"{value:.{digits}g}")
+        try:
+            if _FLOAT.pack(short) == packed:
+                return short
+        except OverflowError:  # the greatest of them, rounded up
+            continue
+    return float(f"{value:.9g}")
+
+
+def flat(values: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Names and values with nested messages taken apart: ``pose.position.x``. Lists stay lists."""
+    for name, value in values.items():
+        if isinstance(value, dict):
+            yield from flat(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", value
+
+
+_KINDS: dict[int, str] = {
+    FieldDescriptor.TYPE_INT64: "int64",
+    FieldDescriptor.TYPE_SINT64: "int64",
+    FieldDescriptor.TYPE_SFIXED64: "int64",
+    FieldDescriptor.TYPE_UINT64: "uint64",
+    FieldDescriptor.TYPE_FIXED64: "uint64",
+    FieldDescriptor.TYPE_FLOAT: "float",
+    FieldDescriptor.TYPE_DOUBLE: "double",
+    FieldDescriptor.TYPE_BOOL: "bool",
+    FieldDescriptor.TYPE_STRING: "str",
+    FieldDescriptor.TYPE_BYTES: "bytes",
+    FieldDescriptor.TYPE_MESSAGE: "message",
+}
+
+_Reader = Callable[[Any], Any]
+_READERS: dict[Any, list[tuple[str, _Reader]]] = {}
+
+
+def _readers(descriptor: Descriptor) -> list[tuple[str, _Reader]]:
+    octets = descriptor.full_name.startswith(f"{PACKAGE}.")
+    return [(field.name, _reader(field, octets)) for field in descriptor.fields]
+
+
+def _reader(field: FieldDescriptor, octets: bool) -> _Reader:
+    name, repeated = field.name, field.is_repeated
+    if field.type == FieldDescriptor.TYPE_MESSAGE:
+        if repeated:
+            return lambda message: [plain(item) for item in getattr(message, name)]
+        return lambda message: plain(getattr(message, name)) if message.HasField(name) else None
+    if field.type == FieldDescriptor.TYPE_FLOAT:
+        if repeated:
+            return lambda message: [shortest(item) for item in getattr(message, name)]
+        return lambda message: shortest(getattr(message, name))
+    if repeated or (octets and field.type == FieldDescriptor.TYPE_BYTES):
+        return lambda message: list(getattr(message, name))
+    return lambda message: getattr(message, name)
