@@ -42,6 +42,20 @@ RotateTime = Annotated[
     float | None, typer.Option("--rotate-time", metavar="S", help="Begin a new part this often.", min=1.0)
 ]
 
+Topics = Annotated[
+    list[str] | None, typer.Option("--topic", metavar="PATTERN", help="Only topics like this, e.g. '/mavlink/1/*'.")
+]
+Messages = Annotated[
+    list[str] | None, typer.Option("--message", metavar="NAME", help="Only messages of this name, e.g. ATTITUDE.")
+]
+Systems = Annotated[
+    list[int] | None, typer.Option("--sysid", metavar="ID", help="Only what this system sent.", min=0, max=255)
+]
+Start = Annotated[float, typer.Option("--start", metavar="S", help="Begin so long after the first message.", min=0.0)]
+Duration = Annotated[
+    float | None, typer.Option("--duration", metavar="S", help="End so long after that (default: at the end).")
+]
+
 RECORDINGS = Path("recordings")
 
 
