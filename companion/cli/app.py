@@ -256,6 +256,27 @@ def rerun(
     raise typer.Exit(rerun_log(log, json, sets or []))
 
 
+@app.command()
+def report(
+    log: LogFile,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE.html", help="The page (default: beside the recording)."),
+    ] = None,
+    png: Annotated[
+        Path | None, typer.Option("--png", metavar="DIR", help="Pictures too, one a section, into this folder.")
+    ] = None,
+    against: Annotated[
+        Path | None, typer.Option("--against", metavar="LOG2", help="Compare the parameters with another recording's.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write a recording as one page that needs nothing else: verdict, 3D path, plots, timeline, parameters."""
+    from companion.cli.report import report_log
+
+    raise typer.Exit(report_log(log, output, png, against, json))
+
+
 @log_app.command("info")
 def log_info(log: LogFile, json: Json = False) -> None:
     """What a recording holds."""
