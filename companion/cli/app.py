@@ -55,6 +55,17 @@ Start = Annotated[float, typer.Option("--start", metavar="S", help="Begin so lon
 Duration = Annotated[
     float | None, typer.Option("--duration", metavar="S", help="End so long after that (default: at the end).")
 ]
+LIVE, LIVE_PORT = "--live", "8790"
+Live = Annotated[
+    int | None,
+    typer.Option(
+        LIVE,
+        metavar="[PORT]",
+        help=f"Show it as it happens on a page of this machine, at port {LIVE_PORT} or this one (0: any).",
+        min=0,
+        max=65535,
+    ),
+]
 
 RECORDINGS = Path("recordings")
 
@@ -67,13 +78,14 @@ def demo(
     autopilot: Autopilot = "px4",
     rotate_size: RotateSize = None,
     rotate_time: RotateTime = None,
+    live: Live = None,
     json: Json = False,
 ) -> None:
     """Fly the L-shaped wall with the bundled vehicle, over UDP, recorded. Needs nothing else."""
     from companion.cli.fly import fly_demo, rotation_of
 
     rotation = rotation_of(rotate_size, rotate_time)
-    raise typer.Exit(fly_demo(record, out or [], seed, autopilot, json, rotation))
+    raise typer.Exit(fly_demo(record, out or [], seed, autopilot, json, rotation, live))
 
 
 @app.command()
@@ -96,6 +108,7 @@ def fly(
     ] = None,
     rotate_size: RotateSize = None,
     rotate_time: RotateTime = None,
+    live: Live = None,
     json: Json = False,
 ) -> None:
     """Fly a mission on a vehicle behind a MAVLink/UDP endpoint, or one of several `vehicles` on bundled ones."""
@@ -103,7 +116,8 @@ def fly(
 
     rotation = rotation_of(rotate_size, rotate_time)
     outs = out or []
-    raise typer.Exit(fly_mission(mission, master, outs, record, seed, system_id, wait, autopilot, json, rotation))
+    more = (autopilot, json, rotation, live)
+    raise typer.Exit(fly_mission(mission, master, outs, record, seed, system_id, wait, *more))
 
 
 @app.command()
@@ -323,7 +337,7 @@ INTERRUPTED = 130
 def main() -> None:
     """Console script: a known error is one line on stderr (and a JSON object, if asked for) and exit code 1."""
     try:
-        app()
+        app(with_live_port(sys.argv[1:]))
     except SystemExit as end:
         if end.code == INTERRUPTED:
             _fail("interrupted", 1)
@@ -332,6 +346,15 @@ def main() -> None:
         if not isinstance(error, _known_errors()):
             raise
         _fail(str(error), 2 if type(error).__name__ == "EndpointError" else 1)
+
+
+def with_live_port(arguments: list[str]) -> list[str]:
+    """The arguments with a port behind every `--live` that has none: an option's value cannot be left out."""
+    given: list[str] = []
+    for at, word in enumerate(arguments):
+        bare = word == LIVE and not (at + 1 < len(arguments) and arguments[at + 1].lstrip("-").isdigit())
+        given += [word, LIVE_PORT] if bare else [word]
+    return given
 
 
 def _fail(text: str, code: int) -> NoReturn:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
@@ -19,7 +20,7 @@ from companion.drivers.recording import RecordingTap, header, socket_losses, tot
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.mission import Expect, Mission
-from companion.seam import FloatArray
+from companion.seam import FloatArray, Order
 from companion.verdict import FlightMeter, Verdict, judge
 from logs.errors import RecordingError
 from logs.parts import Rotation
@@ -27,6 +28,9 @@ from logs.recorder import Recorder
 from logs.recovery import recover_unfinished
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
+
+if TYPE_CHECKING:
+    from companion.service.liveflight import LiveFlight
 
 Progress = Callable[[Companion, FlightMeter, Console], AbstractContextManager[Tap]]
 
@@ -68,6 +72,7 @@ def fly_recorded(
     operator: Operator,
     *,
     rotation: Rotation | None = None,
+    live: int | None = None,
     watch: "subprocess.Popen[bytes] | None" = None,
     progress: Progress = show.ProgressLine,
     go: Callable[[], bool] = lambda: True,
@@ -77,6 +82,7 @@ def fly_recorded(
     Parameters
     ----------
     rotation : when a part of the recording ends.
+    live : port of the live page, 0 for one that is free; None: there is none.
     watch : a process whose end is the flight's.
     progress : what a person sees of it.
     go : asked once when all is prepared; False: it is not flown.
@@ -100,10 +106,15 @@ def fly_recorded(
         recorder = stack.enter_context(Recorder(file, threaded=True, **start))
         notice = lambda text: out.print(show.plain(text), soft_wrap=True)  # noqa: E731  once
         taps: list[Tap] = [meter, RecordingTap(companion, recorder, notice)]
+        shown: LiveFlight | None = None
+        ask: Callable[[int], Order | None] = operator
+        if live is not None:
+            shown = _live(stack, live, companion, meter, file, out)
+            taps, ask = [*taps, shown], shown.operator(operator)
         taps.append(stack.enter_context(progress(companion, meter, out)))
         stop = lambda: operator.stop() or _ended(watch)  # noqa: E731  two conditions, once
         told = lambda text, trace: out.print(f"{text}\n{trace}", markup=False, soft_wrap=True)  # noqa: E731  once
-        pace = fly_guarded(companion, links, planning, taps, operator=operator, stop=stop, told=told)
+        pace = fly_guarded(companion, links, planning, taps, operator=ask, stop=stop, told=told)
         if not companion.over:
             companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
         recorder.metadata("sockets", {key: str(value) for key, value in _sockets(links)})
@@ -112,6 +123,9 @@ def fly_recorded(
         except RecordingError as error:  # the flight went on without it; the verdict must not
             companion.failure = companion.failure or str(error)
         kernel_drops = sum(link.counters.drops for link in links.values())
+        verdict = judge(companion, meter)
+        if shown is not None:
+            shown.end(verdict)
     counters = recorder.counters
     losses = {
         "kernel_drops": kernel_drops,
@@ -120,7 +134,22 @@ def fly_recorded(
         "late_ticks": pace.late,
         "missed_ticks": pace.missed,
     }
-    return Flown(judge(companion, meter), mission.expect, file, total(counters), losses, meter.aloft_path())
+    return Flown(verdict, mission.expect, file, total(counters), losses, meter.aloft_path())
+
+
+def _live(
+    stack: ExitStack, port: int, companion: Companion, meter: FlightMeter, file: Path, out: Console
+) -> "LiveFlight":
+    """Serve the live page until the stack is left, and tell where; what feeds it."""
+    from companion.service.feed import Feed
+    from companion.service.live import served_live
+    from companion.service.liveflight import LiveFlight
+
+    feed = Feed()
+    shown = LiveFlight(feed, companion, meter, {"recording": str(file)})
+    address = stack.enter_context(served_live(port, feed))
+    out.print(f"live page: {address}", highlight=False, soft_wrap=True)
+    return shown
 
 
 @contextmanager

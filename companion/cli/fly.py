@@ -28,6 +28,7 @@ def fly_demo(
     autopilot: "Autopilot",
     as_json: bool,
     rotation: Rotation | None = None,
+    live: int | None = None,
 ) -> int:
     """The embedded default: the bundled vehicle as its own process, on a port the system chooses."""
     from companion.cli.vehicle import running_vehicle
@@ -41,7 +42,9 @@ def fly_demo(
     config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
     operator, url = Operator(), f"udpout:{host}:{port}"
     with operator.listening(), running_vehicle(mission, url, seed, vehicle_log(file), autopilot) as vehicle:
-        flown = fly_recorded(mission, data, endpoints, file, config, operator, rotation=rotation, watch=vehicle)
+        flown = fly_recorded(
+            mission, data, endpoints, file, config, operator, rotation=rotation, live=live, watch=vehicle
+        )
         return flown.tell(as_json)
 
 
@@ -56,12 +59,15 @@ def fly_mission(
     autopilot: "Autopilot | None",
     as_json: bool,
     rotation: Rotation | None = None,
+    live: int | None = None,
 ) -> int:
     """Fly `path` on whatever answers at `master`, or its several vehicles on bundled ones; returns the exit code."""
     data = read_mission_file(path)
     if has_vehicles(data):
         from companion.cli.several import fly_several
 
+        if live is not None:
+            raise typer.BadParameter("found with several vehicles, expected with one", param_hint="--live")
         if master is not None or outs or system_id is not None:
             several = "of a file with vehicles each is a bundled one, at a port of its own"
             raise typer.BadParameter(f"found with {path}, expected without: {several}", param_hint="--master")
@@ -83,7 +89,8 @@ def fly_mission(
     operator = Operator()
     with operator.listening():
         file = recording_file(record, mission)
-        return fly_recorded(mission, data, endpoints, file, config, operator, rotation=rotation).tell(as_json)
+        flown = fly_recorded(mission, data, endpoints, file, config, operator, rotation=rotation, live=live)
+        return flown.tell(as_json)
 
 
 def rotation_of(size_mb: float | None, seconds: float | None) -> Rotation | None:
