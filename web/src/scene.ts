@@ -15,7 +15,7 @@ import { RAMP_CSS, ramp, roundUp } from "./ramp";
 import { boundsFrame, dispose, fenceCurtain, glowing, ground, obstacle, segments, solid, toThree, vehicle, VEHICLE_SPAN, type Ground } from "./solids";
 import type { State } from "./state";
 
-const MOST_VERTICES = 6000;
+const MOST_VERTICES = 6000, MOST_IN_SOFTWARE = 1500; // of a line; each costs the processor a few microseconds a frame
 const CLICK_PX = 5;
 const TRAIL = 24, TRAIL_S = 3;
 const VIEWS = ["3D", "top", "side"] as const;
@@ -294,11 +294,15 @@ export class FlightScene {
     return tag;
   }
 
+  private thinned(track: Track): number[] {
+    return thin(track, this.reach, this.soft ? MOST_IN_SOFTWARE : MOST_VERTICES);
+  }
+
   private rebuildPath(): void {
     const flown = this.layer("path", "flown", "ink-2");
     const reference = this.layer("reference", "reference", "ink-3", true);
     const truth = this.layer("truth", "truth", "s2", false);
-    this.kept = thin(this.path, this.reach);
+    this.kept = this.thinned(this.path);
     const { values, high, unit } = this.colouring();
     if (this.kept.length > 1) {
       const neutral = new Color(colour("ink-3"));
@@ -317,7 +321,7 @@ export class FlightScene {
       if (!this.live) this.tag("end", end, "place", "path");
     }
     for (const [track, group, tone, dashed] of [[this.reference, reference, "ink-2", true], [this.truth, truth, "s2", false]] as const) {
-      const kept = thin(track, this.reach);
+      const kept = this.thinned(track);
       if (kept.length < 2) continue;
       const dash = dashed ? this.reach / 120 : 0;
       group.add(fat(flat3(track, kept), colour(tone), 1.6, 0.8, dash));
@@ -845,9 +849,9 @@ function way(json: PlanJson): Way {
 }
 
 /** Indices of the vertices worth drawing: those that moved visibly, never more than a few thousand. */
-function thin(track: Track, reach: number): number[] {
+function thin(track: Track, reach: number, most: number): number[] {
   const count = track.length, kept: number[] = [];
-  let least = (reach / 3000) ** 2;
+  let least = (reach / 1000) ** 2;
   for (;;) {
     kept.length = 0;
     let n = NaN, e = NaN, u = NaN;
@@ -859,8 +863,8 @@ function thin(track: Track, reach: number): number[] {
       kept.push(i);
       [n, e, u] = [a, b, c];
     }
-    if (kept.length <= MOST_VERTICES) return kept;
-    least *= 4;
+    if (kept.length <= most) return kept;
+    least *= 2;
   }
 }
 
@@ -868,6 +872,22 @@ function flat3(track: Track, kept: number[]): Float32Array {
   const positions = new Float32Array(3 * kept.length);
   kept.forEach((i, k) => positions.set([track.e.at(i), track.u.at(i), -track.n.at(i)], 3 * k));
   return positions;
+}
+
+const fatMaterials = new Map<string, LineMaterial>();
+
+/** Kept for good: with the last material of a kind its shader would go, and be compiled again for the next line. */
+function fatMaterial(linewidth: number, opacity: number, dash: number): LineMaterial {
+  const key = [linewidth, opacity, dash].join();
+  let material = fatMaterials.get(key);
+  if (!material) {
+    material = new LineMaterial({
+      linewidth, vertexColors: true, transparent: true, opacity, dashed: true, dashSize: dash || 1e9, gapSize: 0.75 * dash, depthWrite: opacity >= 1,
+    });
+    material.userData.kept = true;
+    fatMaterials.set(key, material);
+  }
+  return material;
 }
 
 /** A line of so many pixels, in one colour or one a vertex. */
@@ -879,13 +899,10 @@ function fat(positions: Float32Array, tint: Float32Array | string, linewidth: nu
     tint = Float32Array.from({ length: positions.length }, (_, i) => [r, g, b][i % 3]);
   }
   geometry.setColors(tint);
-  const material = new LineMaterial({
-    linewidth, vertexColors: true, transparent: true, opacity, dashed: true, dashSize: dash || 1e9, gapSize: 0.75 * dash,
-  });
+  const material = fatMaterial(linewidth, opacity, dash);
   const line = new Line2(geometry, material);
   // Below the obstacles, which tint what is behind them; where lines coincide, what was flown covers what was meant.
   line.renderOrder = opacity < 1 ? -2 : -1;
-  material.depthWrite = opacity >= 1;
   line.computeLineDistances();
   line.frustumCulled = false;
   return line;

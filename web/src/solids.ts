@@ -146,7 +146,7 @@ export function dispose(object: Object3D): void {
   object.traverse((child) => {
     const { geometry, material } = child as Mesh;
     geometry?.dispose();
-    for (const m of [material].flat()) m?.dispose();
+    for (const m of [material].flat()) if (!m?.userData.kept) m?.dispose();
   });
   object.removeFromParent();
 }
