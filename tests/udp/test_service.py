@@ -16,7 +16,9 @@ from typing import Any
 import pytest
 
 from companion.drivers.rerun import rerun
+from logs import schema
 from logs.reader import Recording
+from logs.recorder import Recorder
 from tests.conftest import HOP
 from tests.vehicle_process import VehicleProcess, free_port
 
@@ -100,3 +102,27 @@ def test_two_services_wait_for_their_vehicles_fly_tell_each_other_and_land_on_si
     (recording,) = (tmp_path / "1" / "recordings").iterdir()
     again = rerun(Recording(recording))
     assert again.comparison.first is None, again.comparison
+
+
+def test_a_service_recovers_what_an_earlier_one_left_unfinished(tmp_path: Path) -> None:
+    (tmp_path / "recordings").mkdir()
+    path = tmp_path / "recordings" / "hop.mcap"
+    with Recorder(tmp_path / "whole.mcap", metadata={}, threaded=False) as recorder:
+        for tick in range(100):
+            note = schema.Note(6, "FLYING", str(tick))
+            at_us = (tick + 1) * 20_000
+            recorder.message("/companion/note", note, log_time_ns=at_us * 1000, now_us=at_us, tick=tick)
+        path.write_bytes((tmp_path / "whole.mcap").read_bytes())  # as a killed process leaves it
+    service = Running(tmp_path, f"master: udpin:127.0.0.1:{free_port()}")
+    try:
+        service.wait(lambda: service.get("/health")[0] == 200)
+        service.wait(
+            lambda: any(f"{path.name}: recovered 76 messages; nothing is lost" in text for text in service.said)
+        )
+        service.process.send_signal(signal.SIGTERM)
+        assert service.process.wait(60) == 0
+    finally:
+        service.process.kill()
+        service.process.wait(10)
+    assert Recording.open(path).complete
+    assert len(list(Recording.open(path).messages())) == 76
