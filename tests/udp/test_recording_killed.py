@@ -97,7 +97,7 @@ def test_a_flight_killed_at_any_moment_leaves_a_recording_that_is_recovered(tmp_
         while not list(tmp_path.glob("*.mcap")):
             assert process.poll() is None
             time.sleep(0.05)
-        time.sleep(random.Random(kill).uniform(0.7, 12.0))
+        time.sleep(random.Random(kill).uniform(1.5, 12.0))
         assert process.poll() is None
         os.kill(process.pid, signal.SIGKILL)
         killed_ns = time.time_ns()
