@@ -401,6 +401,21 @@ def test_a_browser_without_webgl_shows_everything_but_the_scene(browser: Browser
     page.close()
 
 
+def test_what_differs_by_rounding_only_is_drawn_flat(browser: Browser, tmp_path):
+    series = contract.Series("gap", np.arange(100.0), np.full(100, 20.0))
+    plot = contract.Plot("p", "setpoints", "p", "ms", (series,), (("p99", 20.000001),))
+    data = contract.Report(
+        contract.Header("flat", duration_s=99.0), contract.Scene(contract.Track([], [], [], [])), (plot,)
+    )
+    write_page(data.to_json(), tmp_path / "flat.html")
+    page = browser.page((tmp_path / "flat.html").as_uri())
+    page.until("window.companionPage?.ready")
+    plot_middle(page, "p")
+    scale = page.js("companionPage.page.plots.find('p').plot.scales.y")
+    assert scale["max"] - scale["min"] > 1
+    page.close()
+
+
 def test_a_page_whose_data_are_broken_says_so(browser: Browser, report, tmp_path):
     broken = tmp_path / "broken.html"
     text = report.read_text("utf-8")

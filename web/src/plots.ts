@@ -9,6 +9,7 @@ import { timeGestures } from "./gestures";
 import type { State } from "./state";
 
 const HEIGHT = 176;
+const ROUNDING = 2e-6; // of a value: what differs by less is the same
 const LIVE_KEPT = 120_000; // samples a series keeps while live
 
 interface Line { label: string; style: string; t: Column; v: Column; shown: boolean; value: HTMLElement }
@@ -165,6 +166,8 @@ export class TimePlot {
       if (value > high && value - high <= reach) high = value;
       if (value < low && low - value <= reach) low = value;
     }
+    const size = Math.max(Math.abs(high), Math.abs(low));
+    if (high - low <= ROUNDING * size) [low, high] = [low - 0.05 * size, high + 0.05 * size]; // flat, but for float32
     const margin = 0.07 * (high - low || span);
     return [low >= 0 && low - margin < 0 ? Math.min(0, low) : low - margin, high + margin];
   }
@@ -194,6 +197,7 @@ export class TimePlot {
     ctx.save();
     ctx.font = `${10.5 * ratio}px system-ui, sans-serif`;
     ctx.textAlign = "right";
+    const labels: { y: number; left: number }[] = [];
     for (const bound of this.json.bounds ?? []) {
       const y = Math.round(u.valToPos(bound.value, "y", true));
       if (y < top || y > top + height) continue;
@@ -206,7 +210,10 @@ export class TimePlot {
       ctx.stroke();
       const above = y - top > 14 * ratio;
       ctx.textBaseline = above ? "bottom" : "top";
-      ctx.fillText(bound.label, left + width - 4 * ratio, y + (above ? -2 : 3) * ratio);
+      const beside = labels.filter((l) => Math.abs(l.y - y) < 13 * ratio).map((l) => l.left); // close ones stand beside one another
+      const right = Math.min(left + width, ...beside) - 4 * ratio;
+      ctx.fillText(bound.label, right, y + (above ? -2 : 3) * ratio);
+      labels.push({ y, left: right - ctx.measureText(bound.label).width - 6 * ratio });
     }
     ctx.restore();
   }
