@@ -33,6 +33,7 @@ def _servos(flight: Flight, part: Part) -> None:
     rows = rows[rows["m"]["port"] == rows["m"]["port"][0]]
     columns = {f"servo {k}": rows["m"][f"servo{k}_raw"].astype(np.float64) for k in range(1, MOTORS + 1)}
     columns = {name: np.where((v == 0) | (v == 65535), np.nan, v) for name, v in columns.items()}
+    columns = _used(columns)
     t = flight.times(rows)
     series = lines(t, columns, "step")
     if series:
@@ -41,12 +42,20 @@ def _servos(flight: Flight, part: Part) -> None:
         _saturation(flight, part, t, columns, LEAST_US, MOST_US, "Servo outputs", "µs")
 
 
+def _used(columns: dict[str, FloatArray]) -> dict[str, FloatArray]:
+    """Those that ever change, if any does: the others drive nothing."""
+    finite = {name: column[np.isfinite(column)] for name, column in columns.items()}
+    moving = {name: columns[name] for name, column in finite.items() if len(column) and np.ptp(column) > 0.0}
+    return moving or columns
+
+
 def _outputs(flight: Flight, part: Part) -> None:
     rows = flight.traffic.told(375)
     if len(rows) < 2:
         return
     used = min(int(rows["m"]["active"].max()).bit_length(), 16)
     columns = {f"actuator {k + 1}": rows["m"]["actuator"][:, k].astype(np.float64) for k in range(used)}
+    columns = _used(columns)
     t = flight.times(rows)
     series = lines(t, columns, "step")
     if series:

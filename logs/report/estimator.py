@@ -26,6 +26,8 @@ _REPORT = {
 }  # fmt: skip
 _DOF = {"velocity": 3, "horizontal position": 2, "height": 1, "magnetometer": 3}
 """Of the bundled vehicle's measurements."""
+CONVERGED_M = 50.0
+"""Accuracies beyond this are those of a filter that knows nothing yet."""
 _GATE = 0.999
 """FT_EKF_GATE, unless the recording says otherwise."""
 
@@ -108,6 +110,7 @@ def _against_truth(flight: Flight, part: Part, t: FloatArray, accuracy: dict[str
     columns = {"horizontal": np.hypot(off[:, 0], off[:, 1]), "vertical": np.abs(off[:, 2])}
     series = lines(flight.flown.t, columns)
     believed = {f"believed, {name}": _known(column) for name, column in accuracy.items()}
+    believed = {name: np.where(column < CONVERGED_M, column, np.nan) for name, column in believed.items()}
     believed = {name: column for name, column in believed.items() if np.nan_to_num(column).any()}
     series += lines(t, believed, "step")
     note = "Position, from where it stood when the flight began."

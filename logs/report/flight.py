@@ -174,13 +174,10 @@ def _truth(flight: Flight) -> None:
     if len(rows):
         t, position, velocity = (rows[:, 0] - flight.t0_ns) / 1e9, rows[:, 1:4], rows[:, 4:7]
     else:
-        hil = flight.traffic.told(115)
-        if not len(hil):
+        told = _told_truth(flight)
+        if told is None:
             return
-        m = hil["m"]
-        t = flight.times(hil)
-        position = _local(m["lat"] / 1e7, m["lon"] / 1e7, m["alt"] / 1e3)
-        velocity = np.stack([m[name] / 100.0 for name in ("vx", "vy", "vz")], axis=1)
+        t, position, velocity = told
     if len(flight.flown.t):
         stood_s = next((s for s, note in flight.notes if note.phase == "planning"), None)
         if stood_s is None:
@@ -188,10 +185,28 @@ def _truth(flight: Flight) -> None:
             if flight.aloft is not None:
                 stood_s = max(stood_s, flight.aloft[0] - 0.5)
         here = Motion(t, position, velocity).at(np.array([stood_s]))[0]
-        told = flight.flown.at(np.array([stood_s]))[0]
-        if np.isfinite(here).all() and np.isfinite(told).all():
-            position = position - here + told
+        said = flight.flown.at(np.array([stood_s]))[0]
+        if np.isfinite(here).all() and np.isfinite(said).all():
+            position = position - here + said
     flight.truth = Motion(t, position, velocity)
+
+
+def _told_truth(flight: Flight) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Times, positions and velocities of HIL_STATE_QUATERNION, or of ArduPilot's SIM_STATE with whole degrees 1e-7."""
+    rows = flight.traffic.told(115)
+    if len(rows):
+        m = rows["m"]
+        position = _local(m["lat"] / 1e7, m["lon"] / 1e7, m["alt"] / 1e3)
+        velocity = np.stack([m[name] / 100.0 for name in ("vx", "vy", "vz")], axis=1)
+        return flight.times(rows), position, velocity
+    rows = flight.traffic.told(108)
+    rows = rows[(rows["m"]["lat_int"] != 0) | (rows["m"]["lon_int"] != 0)]
+    if not len(rows):
+        return None
+    m = rows["m"]
+    position = _local(m["lat_int"] / 1e7, m["lon_int"] / 1e7, m["alt"].astype(np.float64))
+    velocity = np.stack([m[name].astype(np.float64) for name in ("vn", "ve", "vd")], axis=1)
+    return flight.times(rows), position, velocity
 
 
 def _setpoints_as_reference(flight: Flight) -> None:

@@ -61,7 +61,8 @@ def gather(recording: Recording, around: Surroundings = NOWHERE, against: Record
         "timeline": timeline_part(flight),
         "parameters": parameters_part(values, changed, other),
     }
-    parts["path"].plots += clearance_part(aloft.t, clearance, expected[0] if expected else None).plots
+    nearest = clearance_part(aloft.t, clearance, expected[0] if expected else None, bool(scene.movers))
+    parts["path"].plots += nearest.plots
     header = _header(recording, flight, around, clearance)
     left_out = [[name, part.missing] for name, part in parts.items() if part.missing]
     tables = [table for part in parts.values() for table in part.tables]
@@ -107,7 +108,8 @@ def _header(recording: Recording, flight: Flight, around: Surroundings, clearanc
     phase, failure = str(told.get("phase") or phase), str(told.get("failure") or failure)
     if ok is None and phase and around.phase:
         ok = phase == around.phase and all(check.ok is not False for check in checks)
-        ok = ok and recording.complete
+        ok = ok and recording.complete and not (failure and around.phase == "done")
+        ok = ok and not measured.get("min_clearance_m", 0.0) < 0.0
     if not recording.complete:
         failure = failure or f"the recording is not complete: {recording.problem}"
     return c.Header(
@@ -172,18 +174,15 @@ def _checks(told: dict[str, Any], measured: dict[str, float], around: Surroundin
 
 
 def _end(flight: Flight) -> tuple[str, str]:
-    """The last phase and, if it failed, the words that led there."""
+    """The last phase, and what went wrong on the way: the first error told, else the words that led there."""
     notes = flight.notes
     if not notes:
         return "", ""
     last = notes[-1][1].phase
-    if last == "done":
-        return last, ""
-    why = [
-        note.text
-        for _, note in notes
-        if note.level <= 4 or note.text.endswith(f"-> {last}") or "-> failed" in note.text
-    ]
+    errors = [note.text for _, note in notes if note.level <= 3]
+    if errors or last == "done":
+        return last, errors[0] if errors else ""
+    why = [note.text for _, note in notes if f"-> {last}" in note.text]
     return last, why[-1] if why else ""
 
 

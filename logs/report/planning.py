@@ -7,7 +7,7 @@ import numpy as np
 from logs.report import contract as c
 from logs.report.columns import FloatArray, percentiles
 from logs.report.flight import Flight
-from logs.report.part import Part, Surroundings, TableRows, lines, row
+from logs.report.part import Part, Surroundings, TableRows, histogram, lines, row
 from logs.schema import PlanReady, PlanWanted, ReplanReady, ReplanWanted
 
 MEANING = {
@@ -83,15 +83,8 @@ def _cost(part: Part, plans: list[tuple[float, PlanReady]], replans: list[tuple[
     part.plots.append(c.Plot("planner-time", "planning", "CPU time of an answer", "ms", series))
     heads = ("of", "p50 [ms]", "p95 [ms]", "max [ms]", "answers")
     part.tables.append(c.Table("planning", "CPU time of an answer", heads, rows))
-    every = np.concatenate(spent)
-    if len(every) > 1:
-        edges = np.linspace(0.0, float(every.max()) * 1.0001, 41)
-        cumulated = np.searchsorted(np.sort(every), edges[1:], side="right")
-        marks = tuple(zip(("p50", "p95", "p99"), percentiles(every, [50, 95, 99]), strict=True))
-        note = "Cumulative: so many answers cost at most so much."
-        title = "CPU time of an answer, cumulative"
-        shown = c.Histogram("planner-cdf", "planning", title, "ms", edges, cumulated.tolist(), marks, note)
-        part.histograms.append(shown)
+    shown = histogram("planner-histogram", "planning", "CPU time of an answer", "ms", np.concatenate(spent))
+    part.histograms += [shown] if shown else []
 
 
 def _in_time(flight: Flight, part: Part) -> None:

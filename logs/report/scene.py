@@ -1,5 +1,6 @@
 """The flight in space: path, truth, reference, plans, what moved, and where it came nearest to something."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,7 +16,7 @@ from logs.schema import PlanReady, ReplanReady, ReplanWanted
 MOST_PLANS = 300
 """Ways shown; of more the first of each stretch of time."""
 PLAN_POINTS = 40
-MOST_MOVERS = 64
+MOST_MOVERS = 400
 LOST_S = 2.0
 """A ball not told of for so long is another one when it is told of again."""
 NEAR_M = 1.5
@@ -101,29 +102,31 @@ def curve_of(points: Sequence[float], knots: Sequence[float], count: int) -> Flo
 def _movers(flight: Flight) -> list[c.Mover]:
     """Balls the planner reckoned with, put together by where each was expected."""
     tracks: list[list[tuple[float, float, float, float, float]]] = []  # t, n, e, d, radius
-    velocity: list[FloatArray] = []
+    velocity: list[tuple[float, float, float]] = []
     for t_ns, _, wanted in flight.traffic.records.get(ReplanWanted, []):
         t, now_s = flight.s(t_ns), wanted.now_us / 1e6
+        there = [(i, tracks[i][-1]) for i in range(len(tracks)) if t - tracks[i][-1][0] < LOST_S]
         taken: set[int] = set()
         for k in range(0, len(wanted.movers) - 9, 10):
-            ball = np.array(wanted.movers[k : k + 10])
-            age = now_s - ball[8]
-            centre = ball[:3] + ball[3:6] * (age if abs(age) < LOST_S else 0.0)
+            x, y, z, u, v, w, radius, _, stamp, _ = wanted.movers[k : k + 10]
+            age = now_s - stamp if abs(now_s - stamp) < LOST_S else 0.0
+            centre = (x + u * age, y + v * age, z + w * age)
             best, nearest = -1, NEAR_M
-            for i, track in enumerate(tracks):
-                last = np.array(track[-1])
-                if i not in taken and t - last[0] < LOST_S:
-                    gap = float(np.linalg.norm(last[1:4] + velocity[i] * (t - last[0]) - centre))
-                    best, nearest = (i, gap) if gap < nearest else (best, nearest)
+            for i, last in there:
+                ahead = t - last[0]
+                expected = [p + q * ahead for p, q in zip(last[1:4], velocity[i], strict=True)]
+                gap = math.dist(expected, centre)
+                if i not in taken and gap < nearest:
+                    best, nearest = i, gap
             if best < 0:
                 if len(tracks) >= MOST_MOVERS:
                     continue
                 best = len(tracks)
                 tracks.append([])
-                velocity.append(np.zeros(3))
+                velocity.append((u, v, w))
             taken.add(best)
-            velocity[best] = ball[3:6]
-            tracks[best].append((t, *centre.tolist(), float(ball[6])))
+            velocity[best] = (u, v, w)
+            tracks[best].append((t, *centre, radius))
     movers = []
     for i, track in enumerate(tracks):
         if len(track) > 1:

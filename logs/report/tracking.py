@@ -63,10 +63,12 @@ def path_part(flight: Flight, around: Surroundings) -> Part:
     return part
 
 
-def clearance_part(t: FloatArray, clearance: FloatArray, expected: float | None) -> Part:
+def clearance_part(t: FloatArray, clearance: FloatArray, expected: float | None, movers: bool) -> Part:
     """How far the hull was from the nearest obstacle."""
     levels = [("contact", 0.0)] + ([("expected", expected)] if expected is not None else [])
-    plot = c.Plot("clearance", "path", "Clearance of the hull", "m", lines(t, {"nearest": clearance}), tuple(levels))
+    note = "What moves is taken to be where and as great as the planner reckoned with it." if movers else ""
+    series = lines(t, {"nearest": clearance})
+    plot = c.Plot("clearance", "path", "Clearance of the hull", "m", series, tuple(levels), note)
     return Part([plot]) if plot.series else Part()
 
 

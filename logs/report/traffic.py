@@ -8,6 +8,7 @@ said elsewhere are only counted. What others say to it (commands, setpoints) is 
 
 from array import array
 from collections import defaultdict
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from logs import schema
+from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
 from logs.report.columns import Rows, Stream, payload_type
 from wire.dialect import mavlink
@@ -29,6 +31,7 @@ ASKED = (0, 11, 23, 75, 76, 77, 82, 84, 86, 111)
 _WANTED = frozenset((*TOLD, *ASKED))
 MOST_RECORDS = 50_000
 """Of each of our own records but references and truth; the first ones."""
+MOST_MIRRORS = 2000
 MOST_OTHERS = 64
 """Senders that are followed."""
 _NO_AUTOPILOT = mavlink.MAV_AUTOPILOT_INVALID
@@ -126,8 +129,9 @@ def read(recording: Recording) -> Traffic:
             _packets(traffic, framers, message)
         elif message.channel.encoding == "protobuf" and (kind := kinds.get(message.channel.schema)) is not None:
             _record(traffic, kind, message)
-        elif message.channel.schema == "foxglove.SceneUpdate" and len(traffic.mirrors) < MOST_RECORDS:
-            traffic.mirrors.append((message.log_time_ns, recording.decode(message)))
+        elif message.channel.schema == "foxglove.SceneUpdate" and len(traffic.mirrors) < MOST_MIRRORS:
+            with suppress(RecordingError):
+                traffic.mirrors.append((message.log_time_ns, recording.decode(message)))
         traffic.first_ns = message.log_time_ns if not traffic.messages else min(traffic.first_ns, message.log_time_ns)
         traffic.last_ns = max(traffic.last_ns, message.log_time_ns)
         traffic.messages += 1
