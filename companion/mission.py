@@ -305,8 +305,7 @@ class Mission(Model):
         obstacles: list[PlannerObstacle] = []
         for index, obstacle in enumerate(self.world.obstacles):
             if told(obstacle):
-                solid = solid_of(obstacle)
-                obstacles.append(self._maps[index] if solid is None else solid)
+                obstacles.append(self.solid(index))
         return World(bounds=_corners(self.world.bounds), obstacles=obstacles)
 
     def beyond_reach(self) -> list[tuple[list[Any], str]]:
@@ -352,6 +351,11 @@ class Mission(Model):
                 places.append((["steps", i, "takeoff"], (*self.start_m()[:2], -step.takeoff.altitude)))
         told = ((keys, fence.told(place, self.planner_radius())) for keys, place in places)
         return [(keys, f"found a place {text}, expected one inside") for keys, text in told if text]
+
+    def solid(self, index: int) -> PlannerObstacle:
+        """One obstacle of the world as the planner's, in the mission frame."""
+        solid = solid_of(self.world.obstacles[index])
+        return self._maps[index] if solid is None else solid
 
     def read_maps(self, folder: Path) -> list[tuple[list[Any], str]]:
         """Read the files that the world names, relative to a folder; problems as (keys, what is wrong).

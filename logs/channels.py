@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from logs import schema
+from logs import foxglove, schema
 from logs.container import Container, Direction
+from logs.mirrors import SCHEMAS
 from logs.transcode import Transcoder, transcoder
 from wire.datagram import Address
 
@@ -35,6 +36,7 @@ class Channels:
         self._raw: dict[tuple[str, Direction, Address | None], int] = {}
         self.packets: dict[int, tuple[int, Transcoder]] = {}  # by message id << 16 | system << 8 | component
         self._records: dict[tuple[str, type[schema.Record]], int] = {}
+        self._mirrors: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
 
     def raw(self, link: str, direction: Direction, peer: Address | None) -> int:
@@ -78,6 +80,15 @@ class Channels:
             channel = self._container.add_channel(topic, "protobuf", schema_id, {})
             self._records[topic, kind] = channel
             self.kinds[channel] = Kind("aside" if kind in schema.ASIDE else "messages")
+        return channel
+
+    def mirror(self, topic: str) -> int:
+        """The channel of a topic of `logs.mirrors`."""
+        channel = self._mirrors.get(topic)
+        if channel is None:
+            schema_id = self._schema(f"{foxglove.PACKAGE}.{SCHEMAS[topic]}", foxglove.DESCRIPTOR_SET)
+            channel = self._mirrors[topic] = self._container.add_channel(topic, "protobuf", schema_id, {})
+            self.kinds[channel] = Kind("aside")
         return channel
 
     def _schema(self, name: str, descriptor_set: bytes) -> int:

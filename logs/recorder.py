@@ -1,11 +1,12 @@
 """The recorder: everything that crosses the seam, into MCAP files.
 
-Three families of channels:
+Four families of channels:
     /mavlink/raw/<link>/rx, .../tx       every datagram as it crossed the socket; one channel a peer (`peer` in the
                                          channel's metadata), encoding "mavlink", no schema. The truth for a re-run.
     /mavlink/<sysid>/<compid>/<NAME>     each known packet as protobuf. A packet that crosses several links in one tick
                                          (forwarded, or sent to all) is decoded once.
     /companion/...                       our own records (`logs.schema`)
+    /map /vehicle /plan /scene /log /tf  the same for viewers (`logs.mirrors`), made by the writer thread
 
 The seam is a table, and a message says where it belongs in it: log_time is when it happened, publish_time the tick's
 `now_us`, both in [ns], `sequence` the index of the tick that took or gave it. The order in the file is the order
@@ -29,6 +30,7 @@ from typing import Self
 from logs import schema
 from logs.container import Attachment, Direction
 from logs.errors import RecordingError
+from logs.mirrors import Mirror
 from logs.parts import MOST_PARTS, Gap, Parts, Room, Rotation
 from logs.scribe import Item, Scribe
 from wire.datagram import Address
@@ -57,8 +59,8 @@ class RecorderCounters:
     rx, tx : datagrams recorded, by link.
     decoded : packets recorded as protobuf.
     messages : our own records.
-    dropped_decoded : packets recorded raw only: the writer was behind, there were too many senders, or the disk was
-        filling up; and those lost with a chunk that did not fit.
+    dropped_decoded : packets recorded raw only, and mirrors left out: the writer was behind, there were too many
+        senders, or the disk was filling up; and those lost with a chunk that did not fit.
     dropped_raw : datagrams and records that are not in the files: the writer was far behind, or the disk failed.
     masked : datagrams whose key was masked.
     parts : files.
@@ -172,6 +174,12 @@ class Recorder:
             _negative(log_time_ns, now_us, tick)
         self._put((log_time_ns, now_us, tick, topic, message))
 
+    def mirror(self, mirror: Mirror, *, log_time_ns: int, now_us: int, tick: int) -> None:
+        """Something for viewers; times and tick as in `datagram`."""
+        if log_time_ns < 0 or now_us < 0 or tick < 0:
+            _negative(log_time_ns, now_us, tick)
+        self._put((log_time_ns, now_us, tick, mirror))
+
     def metadata(self, name: str, values: Mapping[str, str]) -> None:
         """Record a table of strings known only later, such as the outcome or the sockets' counters."""
         self._put((name, dict(values)))
@@ -282,6 +290,8 @@ class Recorder:
                 self._scribe.datagram(item, decode)
             elif len(item) == 5:
                 self._scribe.message(item)
+            elif len(item) == 4:
+                self._scribe.mirror(item, decode)
             else:
                 self._container.add_metadata(*item)
         except OSError as error:
@@ -373,6 +383,9 @@ class Recorder:
             return
         self._scribe.begin(self._container)
         self._gap = None
+        self._attempt(lambda: self._scribe.stand(self._last))
+        if self._gap is not None:
+            return
         self._told_losses.clear()  # every part tells all of them
         self._part_begins(self._now_ns())
         if gap is not None:

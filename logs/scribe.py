@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from logs import schema
 from logs.channels import Channels
 from logs.container import Container, Direction
+from logs.mirrors import Mirror, Mirrors
 from logs.secrets import masked
 from wire.datagram import Address
 from wire.framing import Framer
@@ -15,8 +16,9 @@ from wire.framing import Framer
 # What waits for the writer. Plain tuples: one is made for every datagram, in the flight loop.
 DatagramItem = tuple[int, int, int, str, Direction, bytes, Address | None]  # log time [ns], now [us], tick, ...
 MessageItem = tuple[int, int, int, str, schema.Record]
+MirrorItem = tuple[int, int, int, Mirror]
 TableItem = tuple[str, Mapping[str, str]]
-Item = DatagramItem | MessageItem | TableItem
+Item = DatagramItem | MessageItem | MirrorItem | TableItem
 
 
 class Scribe:
@@ -25,7 +27,8 @@ class Scribe:
     Attributes
     ----------
     rx, tx : datagrams written, by link. decoded, messages, aside : packets and records written.
-    dropped_decoded : packets not decoded. masked : datagrams whose key was masked.
+    dropped_decoded : packets not decoded, mirrors left out. failed_mirrors : those of which nothing could be made.
+    masked : datagrams whose key was masked.
     """
 
     def __init__(self, container: Container) -> None:
@@ -35,6 +38,8 @@ class Scribe:
         self._framers: dict[tuple[str, Direction], Framer] = {}
         self._seen: set[bytes] = set()  # datagrams decoded in tick `_seen_tick`
         self._seen_tick = -1
+        self._mirrors = Mirrors()
+        self.failed_mirrors = 0
         self.begin(container)
 
     def begin(self, container: Container) -> None:
@@ -92,6 +97,29 @@ class Scribe:
             self.messages += 1
         self._container.add_message(channel, tick, log_ns, now_us * 1000, data)
 
+    def mirror(self, item: MirrorItem, wanted: bool) -> None:
+        """Something for viewers, left out where packets are not decoded; `OSError` from the container."""
+        log_ns, _, _, mirror = item
+        if not wanted:
+            self.dropped_decoded += 1
+            return
+        try:
+            messages = list(self._mirrors.messages(mirror, log_ns))
+        except (ValueError, ArithmeticError, IndexError, TypeError):  # what is for viewers must not end the recording
+            self.failed_mirrors += 1
+            return
+        for topic, data in messages:
+            self._viewed(topic, data, item[:3])
+
+    def stand(self, at: tuple[int, int, int]) -> None:
+        """What stands and what is planned, at the start of a part (log time [ns], now [us], tick)."""
+        for topic, data in self._mirrors.standing():
+            self._viewed(topic, data, at)
+
+    def _viewed(self, topic: str, data: bytes, at: tuple[int, int, int]) -> None:
+        self.aside += 1
+        self._container.add_message(self._channels.mirror(topic), at[2], at[0], at[1] * 1000, data)
+
     def take_back(self, lost: Mapping[int, int]) -> int:
         """So many messages of each channel did not get into the file; returns how many were not made from others."""
         missing = 0
@@ -116,7 +144,11 @@ class Scribe:
 
     def losses(self) -> dict[str, int]:
         """What was lost on the way to us and here, by name."""
-        values = {"recorder.dropped_decoded": self.dropped_decoded, "recorder.masked_keys": self.masked}
+        values = {
+            "recorder.dropped_decoded": self.dropped_decoded,
+            "recorder.masked_keys": self.masked,
+            "recorder.failed_mirrors": self.failed_mirrors,
+        }
         for (link, direction), framer in self._framers.items():
             if direction == "rx":
                 for (system, component), sender in framer.senders.items():

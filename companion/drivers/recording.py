@@ -13,6 +13,7 @@ from zlib import crc32
 import numpy as np
 
 from companion.core import Companion
+from companion.drivers.mirroring import Mirroring
 from companion.drivers.tick import Tick
 from companion.seam import (
     Flown,
@@ -213,7 +214,7 @@ def socket_losses(links: Mapping[str, UdpLink]) -> Callable[[], dict[str, int]]:
 
 
 class RecordingTap:
-    """Writes every tick to a recorder, if there is one: inputs, the tick itself, outputs.
+    """Writes every tick to a recorder, if there is one: inputs, the tick itself, outputs, and what viewers are shown.
 
     Parameters
     ----------
@@ -228,6 +229,7 @@ class RecordingTap:
         self, companion: Companion, recorder: Recorder | None, tell: Callable[[str], None] = lambda text: None
     ) -> None:
         self._companion, self._recorder, self._tell = companion, recorder, tell
+        self._mirroring = None if recorder is None else Mirroring(companion)
         self.outputs = OutputHash()
 
     def __call__(self, tick: Tick) -> None:
@@ -242,8 +244,19 @@ class RecordingTap:
             _write(self._recorder, tick, "rx", received_us, entry)
         for entry in (tick_record(tick, inputs), *outputs):
             _write(self._recorder, tick, "tx", tick.sent_us, entry)
+        if self._mirroring is not None:
+            self._mirror(self._recorder, self._mirroring, tick)
         for notice in self._recorder.notices():
             self._tell(notice)
+
+    def _mirror(self, recorder: Recorder, mirroring: Mirroring, tick: Tick) -> None:
+        """What viewers are shown; a fault in it costs the rest of it, not the recording."""
+        try:
+            for mirror in mirroring(tick):
+                recorder.mirror(mirror, log_time_ns=tick.sent_us * 1000, now_us=tick.now_us, tick=tick.index)
+        except Exception as error:
+            self._mirroring = None
+            self._tell(f"viewers are shown no more of this flight: {type(error).__name__}: {error}")
 
 
 def _write(recorder: Recorder, tick: Tick, direction: Direction, stamp_us: int, entry: Entry) -> None:
