@@ -98,6 +98,9 @@ def fly(
         Path | None,
         typer.Option(metavar="FOLDER", help="Record everything and the truth (MCAP); also offered as logs."),
     ] = None,
+    record_sensors: Annotated[
+        bool, typer.Option("--record-sensors", help="With --record: what the estimator takes, for companion rerun.")
+    ] = False,
     until_stdin_ends: Annotated[
         bool, typer.Option("--until-stdin-ends", help="End when standard input does: with the process that began it.")
     ] = False,
@@ -120,6 +123,8 @@ def fly(
             raise ValueError(f"--instance {instance}: expected 0 to {255 - count}")
         if not SLOWEST <= speed <= FASTEST:
             raise ValueError(f"--speed {speed:g}: expected {SLOWEST:g} to {FASTEST:g}")
+        if record_sensors and record is None:
+            raise ValueError("--record-sensors: expected --record FOLDER with it")
         place, heading = _home(home)
         kind = _autopilot(autopilot)
         parameters, loaded = _parameters(params or [], param or [], kind)
@@ -146,7 +151,7 @@ def fly(
                 world=events.world,
             )
             folder = record if record is None or count == 1 else record / str(config.system_id)
-            crew.append(_Plan(config, parameters, plans, folder))
+            crew.append(_Plan(config, parameters, plans, folder, record_sensors))
     except AirframeError as error:
         _fail(f"--airframe {airframe}: {error}", 2)
     except (ValueError, EndpointError, ScenarioError, ParameterFileError) as error:
@@ -177,6 +182,7 @@ class _Plan:
     parameters: dict[str, float]
     links: list[LinkPlan]
     folder: Path | None
+    sensors: bool
 
 
 def _await_end_of_stdin(signals: list[int]) -> None:
@@ -226,7 +232,7 @@ def _seat(one: _Plan, links: dict[str, UdpLink], started_s: float, name: str) ->
     files = log = None
     if one.folder is not None:
         files = Folder(one.folder)
-        log = FlightLog(one.folder, one.config, one.parameters, started_unix_s=started_s)
+        log = FlightLog(one.folder, one.config, one.parameters, started_unix_s=started_s, sensors=one.sensors)
     vehicle = Vehicle(one.config, one.parameters, files)
     shown = (vehicle.flying.mode, vehicle.flying.armed)
 

@@ -119,6 +119,7 @@ class Seat:
         if self.log is not None:
             truth = self.vehicle.truth if now_us % TRUTH_US == 0 else None
             self.log.tick(now_us, inputs, outputs, truth)
+            self.log.look(self.vehicle, now_us)
         self.watch(now_us)
 
 

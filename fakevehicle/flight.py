@@ -359,6 +359,11 @@ class FlightStack:
         )
 
     @property
+    def now_us(self) -> int:
+        """Time of the newest tick [us]."""
+        return self._now_us
+
+    @property
     def estimator(self) -> Estimator:
         """The estimator itself, for those who study it."""
         return self._estimator

@@ -14,6 +14,8 @@ import numpy as np
 
 from fakevehicle.config import VehicleConfig
 from fakevehicle.files import Entry, parts
+from fakevehicle.sensorlog import SensorLog
+from fakevehicle.vehicle import TICK_US, Vehicle
 from fakevehicle.vocabulary import Truth
 from logs import schema
 from logs.errors import RecordingError
@@ -93,6 +95,7 @@ class FlightLog:
     parameters : values that differ from the defaults; kept too.
     started_unix_s : names the file [s].
     threaded : a thread writes; False: the caller does, and the same flight gives the same bytes.
+    sensors : record what the estimator takes and makes of it too, 25 kB a second.
 
     Raises
     ------
@@ -107,6 +110,7 @@ class FlightLog:
         *,
         started_unix_s: float,
         threaded: bool = True,
+        sensors: bool = False,
     ) -> None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -120,6 +124,9 @@ class FlightLog:
             },
             threaded=threaded,
         )
+
+        self._now_us = 0
+        self._sensors = SensorLog(self._keep, TICK_US) if sensors else None
 
     @property
     def path(self) -> Path:
@@ -138,6 +145,18 @@ class FlightLog:
             recorder.message(topic, to_record(truth), log_time_ns=now_ns, now_us=now_us, tick=tick)
         self._tick += 1
 
+    def look(self, vehicle: Vehicle, now_us: int) -> None:
+        """Record the estimator's seam, if that is wanted, after `tick`."""
+        if self._sensors is not None:
+            self._now_us = now_us
+            stack = vehicle.stack
+            self._sensors.tick(stack.now_us, stack.estimator, vehicle.parameters)
+
+    def _keep(self, record: schema.Record) -> None:
+        at_us = self._now_us
+        topic = schema.TOPICS[type(record)]
+        self._recorder.message(topic, record, log_time_ns=at_us * 1000, now_us=at_us, tick=self._tick)
+
     def close(self) -> None:
         """Write what is waiting; may be called twice.
 
@@ -145,6 +164,8 @@ class FlightLog:
         ------
         RecordingError : the disk failed on the way; what went in until then is readable.
         """
+        if self._sensors is not None:
+            self._sensors.flush()
         self._recorder.close()
 
 

@@ -238,6 +238,11 @@ class Vehicle:
         return self._stack.truth
 
     @property
+    def stack(self) -> FlightStack:
+        """Physics, sensors, estimator and loops, to be looked at only; another one after a reboot."""
+        return self._stack
+
+    @property
     def flying(self) -> Supervisor:
         """Mode, arming and landed state, to be looked at only."""
         return self._supervisor

@@ -163,7 +163,63 @@ class Loss:
     total: int  # since the recording began
 
 
-Record = Tick | PlanWanted | PlanReady | OperatorCommand | Note | Reference | Truth | ReplanWanted | ReplanReady | Loss
+@dataclass(frozen=True, slots=True)
+class EstimatorBegin:
+    """The bundled vehicle's estimator begins (`fresh`), or has other parameters from the next inputs on."""
+
+    now_us: int  # the vehicle's time since it booted
+    fresh: bool
+    parameters: str  # values by name, as JSON
+    field_n: tuple[float, ...]  # (3,) [gauss]
+    gravity: float  # [m/s^2]
+    period_us: int  # of a tick
+
+
+@dataclass(frozen=True, slots=True)
+class EstimatorInputs:
+    """What it took in the n ticks up to `now_us`; `samples` are rows of 15, as `fakevehicle.sensorlog` says."""
+
+    now_us: int
+    imu: tuple[float, ...]  # (6 n,) body rate and specific force [rad/s], [m/s^2]
+    flying: tuple[float, ...]  # (n,) whether the motors carried it
+    samples: tuple[float, ...] = ()  # (15 k,) of GPS, barometer and magnetometer, in the order they arrived
+
+
+@dataclass(frozen=True, slots=True)
+class EstimatorState:
+    """What it made of them, as of `now_us`; NIS of each sensor's newest measurement."""
+
+    now_us: int
+    position_n: tuple[float, ...]  # (3,) from its origin [m]
+    velocity_n: tuple[float, ...]
+    acceleration_n: tuple[float, ...]
+    q_nb: tuple[float, ...]
+    omega_b: tuple[float, ...]
+    gyro_bias: tuple[float, ...]
+    accel_bias: tuple[float, ...]
+    sigma: tuple[float, ...] = ()  # (15,) 1 sigma of attitude, velocity, position, gyro and accelerometer bias
+    resets: int = 0
+    sensors: str = ""  # names, with commas between them; the columns beside are in this order
+    nis: tuple[float, ...] = ()
+    dof: tuple[float, ...] = ()
+    accepted: tuple[float, ...] = ()
+
+
+Record = (
+    Tick
+    | PlanWanted
+    | PlanReady
+    | OperatorCommand
+    | Note
+    | Reference
+    | Truth
+    | ReplanWanted
+    | ReplanReady
+    | Loss
+    | EstimatorBegin
+    | EstimatorInputs
+    | EstimatorState
+)
 RecordT = TypeVar("RecordT", bound=Record)
 
 RECORDS: tuple[type[Record], ...] = (
@@ -177,11 +233,14 @@ RECORDS: tuple[type[Record], ...] = (
     ReplanWanted,
     ReplanReady,
     Loss,
+    EstimatorBegin,
+    EstimatorInputs,
+    EstimatorState,
 )
 INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand, ReplanReady)
 OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference, ReplanWanted)
-ASIDE: tuple[type[Record], ...] = (Loss,)
-"""Records of the recorder itself, which did not cross the seam."""
+ASIDE: tuple[type[Record], ...] = (Loss, EstimatorBegin, EstimatorInputs, EstimatorState)
+"""Records of the recorder itself and of the vehicle's inside, which did not cross the seam."""
 
 TOPICS: dict[type[Record], str] = {
     Tick: "/companion/tick",
@@ -194,6 +253,9 @@ TOPICS: dict[type[Record], str] = {
     ReplanWanted: "/companion/replan_wanted",
     ReplanReady: "/companion/replan_ready",
     Loss: "/companion/losses",
+    EstimatorBegin: "/vehicle/estimator/begin",
+    EstimatorInputs: "/vehicle/estimator/inputs",
+    EstimatorState: "/vehicle/estimator/state",
 }
 """Where each record is kept, unless a driver says otherwise."""
 

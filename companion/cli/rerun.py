@@ -17,8 +17,8 @@ DIFFERENT = 3
 """Exit code of a failed verification."""
 
 
-def rerun_log(path: Path, as_json: bool, sets: Sequence[str] = ()) -> int:
-    """Re-run `path`, with what `sets` say changed.
+def rerun_log(path: Path, as_json: bool, sets: Sequence[str] = (), estimator: bool = False) -> int:
+    """Re-run `path`, with what `sets` say changed: the companion, or the bundled vehicle's estimator.
 
     Exit code 0 when every output is the same and the recording is whole, 3 otherwise. With changes what differs is the
     answer, not a failure: 0 when the recording is whole.
@@ -26,6 +26,14 @@ def rerun_log(path: Path, as_json: bool, sets: Sequence[str] = ()) -> int:
     out = show.console()
     recording, changes = Recording.open(path), changes_of(sets)
     wall = time.perf_counter()
+    if estimator:
+        from fakevehicle.estimator_rerun import rerun_estimator
+
+        with show.working(out, "re-running the estimator"):
+            estimated = rerun_estimator(recording, changes)
+        speedup = estimated.simulated_s / (time.perf_counter() - wall)
+        about = {"estimator": True, "set": dict(changes)}
+        return tell(recording, about, estimated.ticks, estimated.comparison, speedup, as_json)
     with show.working(out, "re-running"):
         done = rerun(recording, changes=changes)
     wall = time.perf_counter() - wall

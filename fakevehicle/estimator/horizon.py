@@ -95,6 +95,8 @@ class Estimator:
     bias : (6,) gyro and accelerometer bias at the horizon; a view, zeros before alignment.
     fusions : what became of each sensor's newest measurement.
     resets : jumps so far, and the newest one.
+    config : noises and time constants there are now.
+    heard : takes every sample that arrives, for a recording; None: nobody wants them.
     flying : whether the motors carry it; set by the vehicle. Drag is felt and dead sensors are told only then.
     horizon_us : the time at which the filter's nominal state and covariance are true [us].
     """
@@ -134,6 +136,7 @@ class Estimator:
         self._wind = WindWatch()
         self._drag_us, self._leaned = 0, 0
         self._delay_us = config.gps_delay_us
+        self.heard: list[GpsSample | BaroSample | MagSample] | None = None
         self.configure(config)
 
     def configure(self, config: EstimatorConfig) -> None:
@@ -145,8 +148,20 @@ class Estimator:
         attitude = min(1.0, 2.0 * step / (config.tau_position + config.tau_velocity))
         self.predictor["shares"] = min(1.0, step / config.tau_position), min(1.0, step / config.tau_velocity), attitude
 
+    @property
+    def config(self) -> EstimatorConfig:
+        return self._config
+
+    @property
+    def newest(self) -> FloatArray:
+        """The IMU sample (6,) of the newest step; a view."""
+        sample: FloatArray = self.imu[self._row]
+        return sample
+
     def add(self, sample: GpsSample | BaroSample | MagSample) -> None:
         """Take in a sample that has just arrived; it is fused when the horizon reaches the time it was true."""
+        if self.heard is not None:
+            self.heard.append(sample)
         if self.filter is None:
             self._collect(sample)
             return

@@ -130,3 +130,11 @@ def advance_output(p, imu, ring, rate_x, rate_y, rate_z, force_x, force_y, force
     after = ring[newest]
     for i in range(10):
         after[i] = out[i]
+
+
+@kernel
+def advance_alone(predictor_, imu, ring, sample, dt, gravity):
+    """`advance_output` without a vehicle around it: `predictor_` is a (1,) array of `PREDICTOR` seen as f8."""
+    p = predictor_.view(PREDICTOR)[0]
+    x = sample
+    advance_output(p, imu, ring, x[0], x[1], x[2], x[3], x[4], x[5], dt, gravity)
