@@ -259,6 +259,10 @@ def rerun(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="With this changed, such as limits.speed=2 or seed=3."),
     ] = None,
+    estimator: Annotated[
+        bool,
+        typer.Option("--estimator", help="The bundled vehicle's estimator, on what its --record-sensors recorded."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Feed a recording's inputs to a fresh companion and compare every output, bit for bit (exit 3: they differ).
@@ -267,7 +271,7 @@ def rerun(
     """
     from companion.cli.rerun import rerun_log
 
-    raise typer.Exit(rerun_log(log, json, sets or []))
+    raise typer.Exit(rerun_log(log, json, sets or [], estimator))
 
 
 @app.command()
