@@ -107,7 +107,7 @@ def test_the_ground_grows_with_a_flight_that_leaves_it(live: Page, server: LiveS
     assert live.js(f"{PAGE}.scene.floor.high[0]") == 20
     server.send({"append": {"path": [[2.0, 400, 30, 20]]}})
     live.until(f"{PAGE}.scene.floor.high[0] >= 400")
-    x, y = live.js(f"{PAGE}.scene.screenOf([400, 30, 20])")
+    x, y = live.js(f"{PAGE}.scene.cameras.screenOf([400, 30, 20])")
     left, top, width, height = live.box(".scene")
     assert left < x < left + width
     assert top < y < top + height
@@ -175,7 +175,7 @@ def test_a_goal_is_clicked_on_the_ground_and_sent_with_its_altitude(live: Page, 
     live.until(f"{PAGE}.scene.path.length === 1")
     live.click_on("[data-order=goto]")
     live.middle(".scene-canvas")
-    x, y = live.js(f"{PAGE}.scene.screenOf([12, 3, 0])")
+    x, y = live.js(f"{PAGE}.scene.cameras.screenOf([12, 3, 0])")
     live.click(x, y)
     live.js("(() => { const a = document.querySelector('.goal-bar input'); a.value = ''; a.focus(); })()")
     live.type("2.5")

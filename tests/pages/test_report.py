@@ -42,7 +42,7 @@ def picture_of(page: Page, selector: str) -> np.ndarray:
 
 def scene_at(page: Page, place: list[float], reach: int = 4) -> np.ndarray:
     """The scene's pixels about a place (north, east, up), as they are before the page's ground shines through."""
-    x, y = page.js(f"companionPage.page.scene.screenOf({place})")
+    x, y = page.js(f"companionPage.page.scene.cameras.screenOf({place})")
     left, top, width, _ = page.box(".scene-canvas")
     ratio = page.js("document.querySelector('.scene-canvas').width") / width
     cut = [round((x - left) * ratio) - reach, round((y - top) * ratio) - reach, 2 * reach + 1, 2 * reach + 1]
@@ -204,7 +204,7 @@ def test_playing_at_four_speeds_ends_at_the_end(opened):
 
 
 def test_the_scene_turns_zooms_and_has_a_top_and_a_side_view(opened):
-    camera = "companionPage.page.scene.controls.object.position.toArray()"
+    camera = "companionPage.page.scene.cameras.controls.object.position.toArray()"
     x, y = opened.middle(".scene-canvas")
     before = opened.js(camera)
     opened.drag((x, y), (x + 120, y + 30))
@@ -214,7 +214,7 @@ def test_the_scene_turns_zooms_and_has_a_top_and_a_side_view(opened):
     opened.settle()
     assert math.dist(opened.js(camera), turned) > 0.3
     opened.press("2")
-    at, target = opened.js(camera), opened.js("companionPage.page.scene.controls.target.toArray()")
+    at, target = opened.js(camera), opened.js("companionPage.page.scene.cameras.controls.target.toArray()")
     assert at[1] - target[1] > 10 * math.hypot(at[0] - target[0], at[2] - target[2])
     opened.press("3")
     at = opened.js(camera)
@@ -229,7 +229,7 @@ def test_the_scene_turns_zooms_and_has_a_top_and_a_side_view(opened):
 
 def test_a_click_on_the_path_moves_the_cursor_there(opened):
     opened.middle(".scene-canvas")
-    x, y = opened.js("companionPage.page.scene.screenOf(companionPage.page.scene.path.at(16))")
+    x, y = opened.js("companionPage.page.scene.cameras.screenOf(companionPage.page.scene.path.at(16))")
     opened.click(x, y)
     assert opened.js(f"{STATE}.cursor") == pytest.approx(16, abs=0.7)
 
@@ -239,7 +239,7 @@ def test_the_camera_follows_the_vehicle_when_told_to(opened):
     for t in (8, 15):
         opened.js(f"{STATE}.setCursor({t})")
         opened.settle()
-        target = opened.js("companionPage.page.scene.controls.target.toArray()")
+        target = opened.js("companionPage.page.scene.cameras.controls.target.toArray()")
         assert target == pytest.approx(opened.js("companionPage.page.scene.craft.position.toArray()"))
     opened.press("f")
 

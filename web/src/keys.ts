@@ -13,7 +13,7 @@ export function keyboard(state: State, scene: FlightScene, toggleTheme: () => vo
     state.setCursor(state.cursor + share * (high - low) * (event.shiftKey ? 10 : 1));
     state.reveal();
   };
-  const zoom = (factor: number) => () => (scene.focused ? scene.zoom(factor) : state.zoom(factor));
+  const zoom = (factor: number) => () => (scene.focused ? scene.cameras.zoom(factor) : state.zoom(factor));
   const table: Key[] = [
     { keys: [" "], shown: "space", what: "play or pause", act: () => state.setPlaying(!state.playing) },
     { keys: ["ArrowLeft"], shown: "← →", what: "move the cursor (shift: further)", act: step(-0.005) },
@@ -29,10 +29,10 @@ export function keyboard(state: State, scene: FlightScene, toggleTheme: () => vo
     { keys: ["2"], shown: "", what: "", act: () => scene.setView("top") },
     { keys: ["3"], shown: "", what: "", act: () => scene.setView("side") },
     { keys: ["f"], shown: "f", what: "follow the vehicle", act: () => scene.setFollowing(!scene.following) },
-    { keys: ["a"], shown: "w a s d", what: "turn the scene (shift: move it)", act: (e) => (e.shiftKey ? scene.pan(-0.06, 0) : scene.orbit(-0.1, 0)) },
-    { keys: ["d"], shown: "", what: "", act: (e) => (e.shiftKey ? scene.pan(0.06, 0) : scene.orbit(0.1, 0)) },
-    { keys: ["w"], shown: "", what: "", act: (e) => (e.shiftKey ? scene.pan(0, 0.06) : scene.orbit(0, 0.08)) },
-    { keys: ["s"], shown: "", what: "", act: (e) => (e.shiftKey ? scene.pan(0, -0.06) : scene.orbit(0, -0.08)) },
+    { keys: ["a"], shown: "w a s d", what: "turn the scene (shift: move it)", act: (e) => (e.shiftKey ? scene.cameras.pan(-0.06, 0) : scene.cameras.orbit(-0.1, 0)) },
+    { keys: ["d"], shown: "", what: "", act: (e) => (e.shiftKey ? scene.cameras.pan(0.06, 0) : scene.cameras.orbit(0.1, 0)) },
+    { keys: ["w"], shown: "", what: "", act: (e) => (e.shiftKey ? scene.cameras.pan(0, 0.06) : scene.cameras.orbit(0, 0.08)) },
+    { keys: ["s"], shown: "", what: "", act: (e) => (e.shiftKey ? scene.cameras.pan(0, -0.06) : scene.cameras.orbit(0, -0.08)) },
     { keys: ["t"], shown: "t", what: "dark or light", act: toggleTheme },
     { keys: ["/"], shown: "/", what: "search the events", act: () => document.getElementById("event-search")?.focus() },
     { keys: ["?"], shown: "?", what: "this help", act: () => (dialog.open ? dialog.close() : dialog.showModal()) },

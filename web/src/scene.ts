@@ -1,25 +1,21 @@
 /** The flight in space: what is drawn when, the cameras, and what a pointer does in it. */
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, Euler, Group, HemisphereLight, Line, LineBasicMaterial, MOUSE, Mesh, Object3D, OrthographicCamera,
-  PerspectiveCamera, Plane, Raycaster, RingGeometry, Scene as Stage, SphereGeometry, Vector2, Vector3, WebGLRenderer, Color, SRGBColorSpace,
+  AmbientLight, BufferAttribute, Color, DirectionalLight, Euler, Group, HemisphereLight, Line, Mesh, Object3D, OrthographicCamera, PerspectiveCamera,
+  RingGeometry, Scene as Stage, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { Line2 } from "three/examples/jsm/lines/Line2.js";
-import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
-import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { Cameras, VIEWS, type View } from "./cameras";
 import { decode, Track, type MoverJson, type PlanJson, type Point, type SceneJson } from "./data";
 import { colour, h, svg } from "./dom";
 import { clock, fixed, number } from "./format";
+import { fat, flat3, thin, trail, TRAIL } from "./lines";
 import { RAMP_CSS, ramp, roundUp } from "./ramp";
 import { boundsFrame, dispose, fenceCurtain, glowing, ground, obstacle, segments, solid, toThree, vehicle, VEHICLE_SPAN, type Ground } from "./solids";
 import type { State } from "./state";
 
 const MOST_VERTICES = 6000, MOST_IN_SOFTWARE = 1500; // of a line; each costs the processor a few microseconds a frame
 const CLICK_PX = 5;
-const TRAIL = 24, TRAIL_S = 3;
-const VIEWS = ["3D", "top", "side"] as const;
-export type View = (typeof VIEWS)[number];
+const TRAIL_S = 3; // [s]
 type ColourBy = "error" | "speed" | "height" | "time";
 
 interface Layer { name: string; label: string; tone: string; shown: boolean; group: Group }
@@ -31,17 +27,14 @@ export class FlightScene {
   readonly element: HTMLElement;
   /** What is in it, for those who look after it: counts of things drawn. */
   readonly drawn = { vertices: 0, obstacles: 0, plans: 0, movers: 0, frames: 0 };
-  view: View = "3D";
   following = false;
   /** Called with (north, east) when the ground is clicked while a goal is asked for. */
   onGoal: ((north: number, east: number) => void) | null = null;
 
   private readonly stage = new Stage();
   private readonly renderer: WebGLRenderer | null;
-  private readonly perspective = new PerspectiveCamera(38, 1, 0.05, 5000);
-  private readonly flat = new OrthographicCamera(-1, 1, 1, -1, -5000, 5000);
-  private controls: OrbitControls | null = null;
   private readonly canvas = h<HTMLCanvasElement>("canvas.scene-canvas", { tabindex: 0, "aria-label": "3D scene: drag to turn, wheel to zoom, right drag to move" });
+  readonly cameras = new Cameras(this.canvas, () => this.invalidate());
   private readonly overlay = h("div.scene-tags", { "aria-hidden": "true" });
   private readonly compass: SVGElement;
   private readonly needle: SVGElement;
@@ -62,16 +55,12 @@ export class FlightScene {
   private reference = new Track();
   private kept: number[] = []; // indices of the path's drawn vertices
   private floor: Ground | null = null;
-  private centre = new Vector3();
   private reach = 10;
-  private box: [Vector3, Vector3] = [new Vector3(), new Vector3()];
   private colourBy: ColourBy = "error";
   private json: SceneJson;
   private waiting = false;
-  private side = 0;
   private sized = false;
   private soft = false;
-  private turned = false; // the camera is where a person put it
   private moving3d = false; // drawn coarsely, since more frames are coming
   private late = 0; // how late frames come, smoothed [ms]
   private settling = 0;
@@ -97,7 +86,7 @@ export class FlightScene {
       : h("p.no-webgl", "This browser draws no WebGL, so there is no 3D scene. Everything else is here."));
     if (renderer) this.begin(renderer);
     this.load(json);
-    this.resetCamera();
+    if (renderer) this.cameras.reset();
     state.on("cursor", () => this.moveCursor());
     state.on("theme", () => this.rebuild());
   }
@@ -166,7 +155,7 @@ export class FlightScene {
         this.rebuildSoon = 0;
         if (this.outgrown()) {
           this.rebuild();
-          if (!this.turned) this.resetCamera();
+          if (!this.cameras.turned) this.cameras.reset();
           return;
         }
         this.rebuildPath();
@@ -238,10 +227,9 @@ export class FlightScene {
     }
     this.floor = ground([low[0], low[1]], [high[0], high[1]], floor);
     low[2] = Math.min(low[2], floor);
-    this.centre = toThree([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2]);
-    this.box = [toThree(low), toThree(high)];
+    const centre = toThree([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2]);
     this.reach = Math.max(4, Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]));
-    Object.assign(this.perspective, { near: this.reach / 1500, far: this.reach * 60 }).updateProjectionMatrix();
+    this.cameras.measured({ centre, reach: this.reach, box: [toThree(low), toThree(high)], floor: this.floor });
   }
 
   private rebuildStanding(): void {
@@ -412,10 +400,11 @@ export class FlightScene {
       const level = this.floor!.level;
       this.shadow.position.set(place.x, level, place.z);
       this.shadow.children[1].scale.y = Math.max(1e-3, place.y - level);
-      if (this.following && this.controls) {
-        const shift = place.clone().sub(this.controls.target);
-        this.controls.target.add(shift);
-        this.controls.object.position.add(shift);
+      const { controls } = this.cameras;
+      if (this.following && controls) {
+        const shift = place.clone().sub(controls.target);
+        controls.target.add(shift);
+        controls.object.position.add(shift);
       }
     }
     const should = this.reference.length && t >= this.reference.t.at(0) && t <= this.reference.t.at(this.reference.length - 1) + 0.2 ? this.reference.at(t) : null;
@@ -480,19 +469,6 @@ export class FlightScene {
 
   private begin(renderer: WebGLRenderer): void {
     renderer.setPixelRatio(this.ratio());
-    const camera = (object: PerspectiveCamera | OrthographicCamera) => {
-      this.controls?.dispose();
-      const controls = new OrbitControls(object, this.canvas);
-      controls.zoomToCursor = true;
-      controls.maxDistance = 4000;
-      controls.minDistance = 0.5;
-      controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
-      controls.addEventListener("change", () => this.invalidate());
-      controls.addEventListener("start", () => (this.turned = true));
-      this.controls = controls;
-    };
-    camera(this.perspective);
-    this.useCamera = camera;
     new ResizeObserver(() => this.resize()).observe(this.element);
     let down: { x: number; y: number } | null = null;
     this.canvas.addEventListener("pointerdown", (event) => (down = { x: event.clientX, y: event.clientY }));
@@ -500,127 +476,25 @@ export class FlightScene {
       if (down && Math.hypot(event.clientX - down.x, event.clientY - down.y) < CLICK_PX) this.click(event);
       down = null;
     });
-    this.canvas.addEventListener("dblclick", () => this.resetCamera());
+    this.canvas.addEventListener("dblclick", () => this.cameras.reset());
     this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.canvas.addEventListener("webglcontextrestored", () => this.rebuild());
   }
-
-  private useCamera: (object: PerspectiveCamera | OrthographicCamera) => void = () => undefined;
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!this.renderer || !width || !height) return;
     this.renderer.setSize(width, height, false);
-    this.perspective.aspect = width / height;
-    this.perspective.updateProjectionMatrix();
-    if (!this.sized) this.resetCamera();
+    this.cameras.resize(width, height);
+    if (!this.sized) this.cameras.reset();
     this.sized = true;
-    this.frameFlat();
     this.invalidate();
-  }
-
-  private frameFlat(): void {
-    const aspect = (this.element.clientWidth || 1) / (this.element.clientHeight || 1);
-    const floor = this.floor!;
-    const wide = (this.view === "side" && this.side === 1 ? floor.high[0] - floor.low[0] : floor.high[1] - floor.low[1]) * 1.3;
-    const tall = (this.view === "top" ? floor.high[0] - floor.low[0] : this.reach * 0.3) * 1.3;
-    const height = Math.max(tall, wide / aspect) / 2;
-    Object.assign(this.flat, { left: -height * aspect, right: height * aspect, top: height, bottom: -height });
-    this.flat.updateProjectionMatrix();
   }
 
   setView(view: View): void {
-    this.side = view === "side" && this.view === "side" ? 1 - this.side : 0;
-    this.view = view;
-    this.resetCamera();
+    if (!this.renderer) return;
+    this.cameras.setView(view);
     for (const button of this.element.querySelectorAll<HTMLElement>("[data-view]")) button.setAttribute("aria-pressed", String(button.dataset.view === view));
-  }
-
-  resetCamera(): void {
-    if (!this.controls) return;
-    this.turned = false;
-    this.useCamera(this.view === "3D" ? this.perspective : this.flat);
-    const { centre, reach, controls } = this;
-    if (this.view === "3D") {
-      controls.target.copy(this.fit(new Vector3(-0.42, 0.66, 0.9).normalize()));
-    } else {
-      const away = this.view === "top" ? new Vector3(0, 1, 1e-4) : this.side ? new Vector3(1, 0.0001, 0) : new Vector3(0, 0.0001, 1);
-      this.flat.position.copy(centre).addScaledVector(away, reach * 3);
-      this.flat.zoom = 1;
-      this.frameFlat();
-      controls.target.copy(centre);
-    }
-    controls.update();
-    this.invalidate();
-  }
-
-  /** Put the perspective camera so far off in a direction that the whole box is seen, and in the middle; gives the target. */
-  private fit(direction: Vector3): Vector3 {
-    const { perspective: camera, box, reach } = this;
-    const target = this.centre.clone();
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new Vector3(box[k & 1].x, box[(k >> 1) & 1].y, box[(k >> 2) & 1].z));
-    const spread = (far: number) => {
-      camera.position.copy(target).addScaledVector(direction, far);
-      camera.lookAt(target);
-      camera.updateMatrixWorld();
-      camera.updateProjectionMatrix();
-      const seen = corners.map((c) => c.clone().project(camera));
-      const [x, y] = [seen.map((p) => p.x), seen.map((p) => p.y)];
-      return { low: [Math.min(...x), Math.min(...y)], high: [Math.max(...x), Math.max(...y)], behind: seen.some((p) => p.z > 1 || p.z < -1) };
-    };
-    let far = 2 * reach;
-    for (let turn = 0; turn < 4; turn++) {
-      let [near, most] = [0.3 * reach, 8 * reach];
-      for (let k = 0; k < 24; k++) {
-        far = (near + most) / 2;
-        const { low, high, behind } = spread(far);
-        if (behind || high[0] - low[0] > 1.7 || high[1] - low[1] > 1.62) near = far;
-        else most = far;
-      }
-      far = most;
-      const { low, high } = spread(far);
-      const height = far * Math.tan((camera.fov * Math.PI) / 360);
-      const right = new Vector3().setFromMatrixColumn(camera.matrix, 0), up = new Vector3().setFromMatrixColumn(camera.matrix, 1);
-      target.addScaledVector(right, ((low[0] + high[0]) / 2) * height * camera.aspect).addScaledVector(up, ((low[1] + high[1]) / 2) * height);
-    }
-    spread(far);
-    return target;
-  }
-
-  zoom(factor: number): void {
-    if (!this.controls) return;
-    const camera = this.controls.object as PerspectiveCamera | OrthographicCamera;
-    if (camera === this.flat) {
-      this.flat.zoom = Math.max(0.02, Math.min(200, this.flat.zoom / factor));
-      this.flat.updateProjectionMatrix();
-    } else camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
-    this.controls.update();
-    this.invalidate();
-  }
-
-  /** Turn by angles [rad], as a drag would. */
-  orbit(azimuth: number, elevation: number): void {
-    if (!this.controls) return;
-    const { object, target } = this.controls;
-    const arm = object.position.clone().sub(target);
-    const polar = Math.max(0.02, Math.min(Math.PI - 0.02, arm.angleTo(new Vector3(0, 1, 0)) - elevation));
-    const turn = Math.atan2(arm.x, arm.z) + azimuth;
-    object.position.copy(target).add(new Vector3().setFromSphericalCoords(arm.length(), polar, turn));
-    this.controls.update();
-    this.invalidate();
-  }
-
-  /** Move the camera sideways by shares of what it sees. */
-  pan(right: number, up: number): void {
-    if (!this.controls) return;
-    const { object, target } = this.controls;
-    const size = object === this.flat ? (this.flat.top - this.flat.bottom) / this.flat.zoom : object.position.distanceTo(target);
-    const shift = new Vector3().setFromMatrixColumn(object.matrix, 0).multiplyScalar(right * size)
-      .addScaledVector(new Vector3().setFromMatrixColumn(object.matrix, 1), up * size);
-    object.position.add(shift);
-    target.add(shift);
-    this.controls.update();
-    this.invalidate();
   }
 
   setFollowing(following: boolean): void {
@@ -633,32 +507,15 @@ export class FlightScene {
     return document.activeElement === this.canvas;
   }
 
-  /** Where on the ground a pointer is (north, east); null beside it. */
-  groundAt(clientX: number, clientY: number): [number, number] | null {
-    const box = this.canvas.getBoundingClientRect();
-    const pointer = new Vector2(((clientX - box.left) / box.width) * 2 - 1, 1 - ((clientY - box.top) / box.height) * 2);
-    const ray = new Raycaster();
-    ray.setFromCamera(pointer, this.controls!.object as PerspectiveCamera);
-    const hit = ray.ray.intersectPlane(new Plane(new Vector3(0, 1, 0), -this.floor!.level), new Vector3());
-    return hit ? [-hit.z, hit.x] : null;
-  }
-
-  /** Where a place is on the screen [px of the page's window]. */
-  screenOf(place: Point): [number, number] {
-    const box = this.canvas.getBoundingClientRect();
-    const p = toThree(place).project(this.controls!.object as PerspectiveCamera);
-    return [box.left + ((p.x + 1) / 2) * box.width, box.top + ((1 - p.y) / 2) * box.height];
-  }
-
   private click(event: PointerEvent): void {
     if (this.onGoal) {
-      const place = this.groundAt(event.clientX, event.clientY);
+      const place = this.cameras.groundAt(event.clientX, event.clientY);
       if (place) this.onGoal(...place);
       return;
     }
     let best = -1, least = event.pointerType === "mouse" ? 18 : 30;
     for (const i of this.kept) {
-      const [x, y] = this.screenOf([this.path.n.at(i), this.path.e.at(i), this.path.u.at(i)]);
+      const [x, y] = this.cameras.screenOf([this.path.n.at(i), this.path.e.at(i), this.path.u.at(i)]);
       const away = Math.hypot(x - event.clientX, y - event.clientY);
       if (away < least) [best, least] = [i, away];
     }
@@ -697,7 +554,7 @@ export class FlightScene {
 
   /** Give the graphics card back. */
   end(): void {
-    this.controls?.dispose();
+    this.cameras.end();
     clearTimeout(this.settling);
     clearTimeout(this.rebuildSoon);
     this.stage.children.slice().forEach(dispose);
@@ -710,7 +567,7 @@ export class FlightScene {
   private toolbar(): HTMLElement {
     return h("div.scene-toolbar",
       h("div.segments", { role: "group", "aria-label": "view" }, VIEWS.map((view, k) => h("button", {
-        type: "button", "data-view": view, "aria-pressed": String(view === this.view), title: `${view} view (${k + 1})`, onclick: () => this.setView(view),
+        type: "button", "data-view": view, "aria-pressed": String(view === this.cameras.view), title: `${view} view (${k + 1})`, onclick: () => this.setView(view),
       }, view))),
       h("button.pill", { type: "button", "data-follow": "", "aria-pressed": "false", title: "follow the vehicle (f)", onclick: () => this.setFollowing(!this.following) }, "follow"));
   }
@@ -785,12 +642,10 @@ export class FlightScene {
   }
 
   private render(): void {
-    if (!this.renderer || !this.controls) return;
+    if (!this.renderer) return;
     if (this.renderer.getPixelRatio() !== this.ratio()) this.renderer.setPixelRatio(this.ratio());
-    const camera = this.controls.object as PerspectiveCamera | OrthographicCamera;
-    const height = this.element.clientHeight || 1;
-    const perPixel = camera === this.flat ? (this.flat.top - this.flat.bottom) / this.flat.zoom / height
-      : (2 * Math.tan((this.perspective.fov * Math.PI) / 360) * camera.position.distanceTo(this.craft.position)) / height;
+    const { camera } = this.cameras;
+    const perPixel = this.cameras.perPixel(this.craft.position);
     const scale = Math.max(1, (38 * perPixel) / VEHICLE_SPAN); // never smaller than 38 px
     this.craft.scale.setScalar(scale);
     this.shadow.children[0]?.scale.setScalar(scale);
@@ -801,7 +656,7 @@ export class FlightScene {
     this.placeTags(camera);
     const ahead = new Vector3();
     camera.getWorldDirection(ahead);
-    const azimuth = Math.abs(ahead.y) > 0.999 ? this.controls.getAzimuthalAngle() : Math.atan2(-ahead.x, -ahead.z);
+    const azimuth = Math.abs(ahead.y) > 0.999 ? this.cameras.controls!.getAzimuthalAngle() : Math.atan2(-ahead.x, -ahead.z);
     this.needle.setAttribute("transform", `rotate(${(azimuth * 180) / Math.PI})`);
   }
 
@@ -833,79 +688,8 @@ function moving(json: MoverJson): Moving {
   return { json, track: new Track(json), object: new Object3D(), trail: trail(), tag: null as unknown as Tag };
 }
 
-/** Where something was in the last seconds, paler with age. */
-function trail(): Line {
-  const geometry = new BufferGeometry(), tint = new Color(colour("mover"));
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * TRAIL), 3));
-  geometry.setAttribute("color", new BufferAttribute(Float32Array.from({ length: 4 * TRAIL }, (_, i) =>
-    i % 4 < 3 ? [tint.r, tint.g, tint.b][i % 4] : 0.8 * (1 - Math.floor(i / 4) / TRAIL)), 4));
-  const line = new Line(geometry, new LineBasicMaterial({ vertexColors: true, transparent: true }));
-  line.frustumCulled = false;
-  return line;
-}
-
 function way(json: PlanJson): Way {
   return { t: json.t, kind: json.kind, points: decode(json.points).view() };
-}
-
-/** Indices of the vertices worth drawing: those that moved visibly, never more than a few thousand. */
-function thin(track: Track, reach: number, most: number): number[] {
-  const count = track.length, kept: number[] = [];
-  let least = (reach / 1000) ** 2;
-  for (;;) {
-    kept.length = 0;
-    let n = NaN, e = NaN, u = NaN;
-    for (let i = 0; i < count; i++) {
-      const [a, b, c] = [track.n.at(i), track.e.at(i), track.u.at(i)];
-      if (Number.isNaN(a + b + c)) continue;
-      const far = (a - n) ** 2 + (b - e) ** 2 + (c - u) ** 2;
-      if (far < least && i < count - 1) continue;
-      kept.push(i);
-      [n, e, u] = [a, b, c];
-    }
-    if (kept.length <= most) return kept;
-    least *= 2;
-  }
-}
-
-function flat3(track: Track, kept: number[]): Float32Array {
-  const positions = new Float32Array(3 * kept.length);
-  kept.forEach((i, k) => positions.set([track.e.at(i), track.u.at(i), -track.n.at(i)], 3 * k));
-  return positions;
-}
-
-const fatMaterials = new Map<string, LineMaterial>();
-
-/** Kept for good: with the last material of a kind its shader would go, and be compiled again for the next line. */
-function fatMaterial(linewidth: number, opacity: number, dash: number): LineMaterial {
-  const key = [linewidth, opacity, dash].join();
-  let material = fatMaterials.get(key);
-  if (!material) {
-    material = new LineMaterial({
-      linewidth, vertexColors: true, transparent: true, opacity, dashed: true, dashSize: dash || 1e9, gapSize: 0.75 * dash, depthWrite: opacity >= 1,
-    });
-    material.userData.kept = true;
-    fatMaterials.set(key, material);
-  }
-  return material;
-}
-
-/** A line of so many pixels, in one colour or one a vertex. */
-function fat(positions: Float32Array, tint: Float32Array | string, linewidth: number, opacity = 1, dash = 0): Line2 {
-  const geometry = new LineGeometry();
-  geometry.setPositions(positions);
-  if (typeof tint === "string") {
-    const { r, g, b } = new Color(tint);
-    tint = Float32Array.from({ length: positions.length }, (_, i) => [r, g, b][i % 3]);
-  }
-  geometry.setColors(tint);
-  const material = fatMaterial(linewidth, opacity, dash);
-  const line = new Line2(geometry, material);
-  // Below the obstacles, which tint what is behind them; where lines coincide, what was flown covers what was meant.
-  line.renderOrder = opacity < 1 ? -2 : -1;
-  line.computeLineDistances();
-  line.frustumCulled = false;
-  return line;
 }
 
 function round(value: number): number {
