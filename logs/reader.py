@@ -166,6 +166,15 @@ class Recording:
             raise RecordingError(self.path, f"a message of {message.channel.topic} is no {name}: {error}") from error
         return decoded
 
+    def descriptor_set(self, schema_name: str) -> bytes:
+        """The serialized FileDescriptorSet of a schema that a message read so far has.
+
+        Raises
+        ------
+        KeyError    No message read so far has it.
+        """
+        return self._schemas[schema_name]
+
     @cached_property
     def _overview(self) -> "_Overview":
         """One pass over everything but the messages' insides."""

@@ -152,7 +152,8 @@ def _reader(field: FieldDescriptor, octets: bool) -> _Reader:
     if field.type == FieldDescriptor.TYPE_MESSAGE:
         if repeated:
             return lambda message: [plain(item) for item in getattr(message, name)]
-        return lambda message: plain(getattr(message, name)) if message.HasField(name) else None
+        absent = _absent(field.message_type, 4)
+        return lambda message: plain(getattr(message, name)) if message.HasField(name) else absent
     if field.type == FieldDescriptor.TYPE_FLOAT:
         if repeated:
             return lambda message: [shortest(item) for item in getattr(message, name)]
@@ -160,3 +161,15 @@ def _reader(field: FieldDescriptor, octets: bool) -> _Reader:
     if repeated or (octets and field.type == FieldDescriptor.TYPE_BYTES):
         return lambda message: list(getattr(message, name))
     return lambda message: getattr(message, name)
+
+
+def _absent(descriptor: Descriptor | None, depth: int) -> dict[str, Any]:
+    """A nested message that is not there: None for each of its fields, so that columns stay what they are."""
+    if descriptor is None or not depth:
+        return {}
+    return {
+        field.name: _absent(field.message_type, depth - 1)
+        if field.type == FieldDescriptor.TYPE_MESSAGE and not field.is_repeated
+        else None
+        for field in descriptor.fields
+    }

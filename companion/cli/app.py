@@ -51,6 +51,7 @@ Messages = Annotated[
 Systems = Annotated[
     list[int] | None, typer.Option("--sysid", metavar="ID", help="Only what this system sent.", min=0, max=255)
 ]
+Force = Annotated[bool, typer.Option("--force", help="Replace what is there.")]
 Start = Annotated[float, typer.Option("--start", metavar="S", help="Begin so long after the first message.", min=0.0)]
 Duration = Annotated[
     float | None, typer.Option("--duration", metavar="S", help="End so long after that (default: at the end).")
@@ -311,6 +312,99 @@ def log_recover(
     from companion.cli.log import recover_logs
 
     raise typer.Exit(recover_logs(logs, json))
+
+
+@log_app.command("cat")
+def log_cat(
+    log: LogFile,
+    topic: Topics = None,
+    message: Messages = None,
+    sysid: Systems = None,
+    start: Start = 0.0,
+    duration: Duration = None,
+    limit: Annotated[int | None, typer.Option("--limit", "-n", metavar="N", help="Stop after so many.", min=1)] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print a JSON object a line.")] = False,
+) -> None:
+    """Print decoded messages, one a line."""
+    from companion.cli.lookup import cat
+
+    raise typer.Exit(cat(log, _selection(topic, message, sysid, start, duration), limit, json))
+
+
+@log_app.command("filter")
+def log_filter(
+    log: LogFile,
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The smaller recording.")],
+    topic: Topics = None,
+    message: Messages = None,
+    sysid: Systems = None,
+    start: Start = 0.0,
+    duration: Duration = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Write a smaller recording: some topics, messages, senders, or a stretch of time."""
+    from companion.cli.lookup import filter_log
+
+    raise typer.Exit(filter_log(log, output, _selection(topic, message, sysid, start, duration), force, json))
+
+
+@log_app.command("diff")
+def log_diff(
+    log: LogFile,
+    other: Annotated[Path, typer.Argument(metavar="LOG2", help="Recording (MCAP).")],
+    topic: Topics = None,
+    message: Messages = None,
+    sysid: Systems = None,
+    start: Start = 0.0,
+    duration: Duration = None,
+    ignore: Annotated[
+        list[str] | None, typer.Option("--ignore", metavar="FIELD", help="Leave out a field, e.g. time_boot_ms.")
+    ] = None,
+    tolerance: Annotated[float, typer.Option(help="Numbers this near are the same, absolutely or relatively.")] = 0.0,
+    json: Json = False,
+) -> None:
+    """Compare two recordings: parameters, events, and where their messages part (exit 3: they differ)."""
+    from companion.cli.lookup import diff_logs
+
+    wanted = _selection(topic, message, sysid, start, duration)
+    raise typer.Exit(diff_logs(log, other, wanted, ignore or [], tolerance, json))
+
+
+@log_app.command("export")
+def log_export(
+    log: LogFile,
+    to: Annotated[Literal["tlog", "csv", "parquet", "json"], typer.Option("--to", help="The format.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="PATH", help="File or folder (default: beside LOG).")
+    ] = None,
+    topic: Topics = None,
+    message: Messages = None,
+    sysid: Systems = None,
+    start: Start = 0.0,
+    duration: Duration = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Write a recording as .tlog, as CSV or Parquet (a folder, a file a topic), or as lines of JSON."""
+    from companion.cli.lookup import export_log
+
+    raise typer.Exit(export_log(log, to, output, _selection(topic, message, sysid, start, duration), force, json))
+
+
+@log_app.command("import")
+def log_import(
+    source: Annotated[Path, typer.Argument(metavar="FILE", help=".tlog, PX4's .ulg, or ArduPilot's .BIN.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="LOG", help="The recording (default: beside FILE).")
+    ] = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Make a recording of another program's log."""
+    from companion.cli.lookup import import_file
+
+    raise typer.Exit(import_file(source, output, force, json))
 
 
 def _selection(

@@ -69,7 +69,7 @@ def replay_log(
     total = len(kept) if len(kept) <= MOST_KEPT else sum(1 for _ in again())
     if not total:
         raise RecordingError(path, f"nothing of link {name} is left to replay by what is asked for")
-    source = (lambda: iter(kept)) if total <= MOST_KEPT else again
+    source: Callable[[], Iterator[Due]] = kept.__iter__ if total <= MOST_KEPT else again
     answering = Answering(recording.messages(), name, _mission(recording)) if answer and not to_a_vehicle else None
     operator = Operator()
     with UdpLink("ground", endpoint) as link, operator.listening(), keyboard() as keys:

@@ -1,0 +1,45 @@
+"""Logs of others as recordings: .tlog of ground stations, PX4's .ulg, ArduPilot's .BIN.
+
+    .tlog   by our own reader; packets keep their bytes, so it replays, exports and compares as a flight of ours
+    .ulg    by pyulog (https://github.com/PX4/pyulog), which is optional: `pip install mavlink-companion[ulog]`
+    .BIN    by pymavlink's DFReader (https://github.com/ArduPilot/pymavlink), which is here anyway
+
+What these hold beside packets becomes protobuf channels with the names that the log gives: ``/px4/<topic>/<instance>``,
+``/ardupilot/<NAME>``. There is nothing in them to replay or to run again.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from logs.errors import RecordingError
+
+ENDINGS = (".tlog", ".ulg", ".bin")
+
+
+@dataclass(slots=True)
+class Imported:
+    """What became of a log: the recording, how many messages, and what is to be told of it."""
+
+    path: Path
+    messages: int = 0
+    told: list[str] = field(default_factory=list)
+
+
+def import_log(source: Path, target: Path, force: bool = False) -> Imported:
+    """Make a recording of a log, by its ending.
+
+    Raises
+    ------
+    RecordingError    It cannot be read or is no such log, a package is missing, or `target` cannot be written.
+    """
+    from logs.importing.dataflash import import_dataflash
+    from logs.importing.tlog import import_tlog
+    from logs.importing.ulog import import_ulog
+
+    kinds = {".tlog": import_tlog, ".ulg": import_ulog, ".bin": import_dataflash}
+    reader = kinds.get(source.suffix.lower())
+    if reader is None:
+        raise RecordingError(source, f"found the ending {source.suffix or 'none'!r}, expected .tlog, .ulg or .BIN")
+    if not source.is_file():
+        raise RecordingError(source, "no such file")
+    return reader(source, target, force)
