@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 
 from companion.core import Companion
 from companion.meter import FlightMeter, Track, least_clearance
-from companion.mission import Mission
+from companion.mission import Expect, Mission
 from companion.phases import Phase
 
-__all__ = ["FlightMeter", "Track", "Verdict", "failed_expectations", "judge", "least_clearance"]
+__all__ = ["Check", "FlightMeter", "Track", "Verdict", "checks", "failed_expectations", "judge", "least_clearance"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +85,27 @@ def judge(companion: Companion, meter: FlightMeter, beside_m: float | None = Non
         setpoint_gap_max_ms=numbers["setpoint_gap_max_ms"],
         track=track,
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One expectation: its name, what was found, how it was judged (such as ``<= 0.35``), and whether it is met."""
+
+    name: str
+    value: float | str | None
+    expected: str
+    ok: bool
+
+
+def checks(verdict: Verdict, expect: Expect) -> list[Check]:
+    """Every expectation of a mission and what came of it."""
+    found = [Check("phase", verdict.phase, expect.phase, verdict.phase == expect.phase)]
+    for name, bound in expect.model_dump(exclude_none=True, exclude={"phase"}).items():
+        value: float | None = verdict.duration_s if name == "duration_max_s" else getattr(verdict, name)
+        at_least = name == "min_clearance_m"
+        met = value is not None and (value >= bound if at_least else value <= bound)
+        found.append(Check(name, value, f"{'>=' if at_least else '<='} {bound:g}", met))
+    return found
 
 
 def failed_expectations(mission: Mission, numbers: dict[str, float | None]) -> list[str]:

@@ -16,6 +16,7 @@ from companion.cli.operator import STOPPED, Operator
 from companion.core import Companion, CompanionConfig
 from companion.drivers.flight import fly_guarded
 from companion.drivers.planning import WorkerPlanning
+from companion.drivers.provenance import conclude
 from companion.drivers.recording import RecordingTap, header, socket_losses, total
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
@@ -117,6 +118,7 @@ def fly_recorded(
         pace = fly_guarded(companion, links, planning, taps, operator=ask, stop=stop, told=told)
         if not companion.over:
             companion.failure = _why_stopped(watch, file) + (f" ({companion.failure})" if companion.failure else "")
+        conclude(recorder, companion, meter)
         recorder.metadata("sockets", {key: str(value) for key, value in _sockets(links)})
         try:
             recorder.close()

@@ -13,6 +13,7 @@ from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
+from companion.drivers.provenance import conclude
 from companion.drivers.recording import RecordingTap, header, total
 from companion.drivers.tick import Tap
 from companion.fleet.missions import has_vehicles, split
@@ -58,9 +59,11 @@ def simulate_mission(path: Path, seed: int, record: Path | None, autopilot: Auto
             companion, vehicle, LINK, planning, taps, limit_s=limit_s, operator=operator, stop=operator.stop
         )
         wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
-    if not companion.over:
-        late = f"not over after {limit_s:g} s of simulated time"
-        companion.failure = STOPPED if operator.stop() else companion.failure or late
+        if not companion.over:
+            late = f"not over after {limit_s:g} s of simulated time"
+            companion.failure = STOPPED if operator.stop() else companion.failure or late
+        if recorder is not None:
+            conclude(recorder, companion, meter, None if around is None else around.least)
     verdict = judge(companion, meter, None if around is None else around.least)
     simulated_s, sha256 = end_us / 1e6, recording.outputs.hexdigest()
     result = {

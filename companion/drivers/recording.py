@@ -14,6 +14,7 @@ import numpy as np
 
 from companion.core import Companion
 from companion.drivers.mirroring import Mirroring
+from companion.drivers.provenance import RUN, run_table
 from companion.drivers.tick import Tick
 from companion.seam import (
     Flown,
@@ -189,8 +190,10 @@ def _trajectory(points: tuple[float, ...], knots: tuple[float, ...]) -> Trajecto
 def header(companion: Companion, mission_file: bytes, **more: Mapping[str, str]) -> dict[str, Any]:
     """What a recording begins with, as keyword arguments of `Recorder`: the mission and what else a re-run needs."""
     config = {"config": json.dumps(asdict(companion.config), sort_keys=True)}
+    clock = more.get("clock", {}).get("epoch", "lockstep")
+    run = run_table(companion, clock, dict(more.get("endpoints", {})))
     return {
-        "metadata": {CONFIG_METADATA: config, **more},
+        "metadata": {CONFIG_METADATA: config, RUN: run, **more},
         "attachments": [Attachment(MISSION_ATTACHMENT, "application/yaml", mission_file)],
     }
 

@@ -19,6 +19,7 @@ from companion.config import ServiceConfig
 from companion.core import Companion, CompanionConfig
 from companion.drivers.flight import NothingPlanned, fly_guarded
 from companion.drivers.planning import WorkerPlanning
+from companion.drivers.provenance import conclude
 from companion.drivers.realtime import fly_realtime
 from companion.drivers.recording import RecordingTap, header, socket_losses
 from companion.drivers.tick import Tap
@@ -183,14 +184,15 @@ class Service:
                 stop=signals.stop,
                 told=lambda text, trace: telling.say(Level.ERROR, text, traceback=trace),
             )
+            left = companion.phase in AIRBORNE and not companion.over
+            if left:
+                companion.failure = companion.failure or "stopped without landing"
+            conclude(recorder, companion, meter)
             recorder.metadata("pace", {key: str(value) for key, value in asdict(pace).items()})
             try:
                 recorder.close()
             except RecordingError as error:
                 telling.say(Level.ERROR, str(error))
-        left = companion.phase in AIRBORNE and not companion.over
-        if left:
-            companion.failure = companion.failure or "stopped without landing"
         telling.judged(judge(companion, meter), file)
         self._choice.flown(companion.ground if isinstance(companion.ground, GroundStation) else None)
         return int(left)

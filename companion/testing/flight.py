@@ -13,6 +13,7 @@ from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import fly_lockstep
 from companion.drivers.planning import InlinePlanning
+from companion.drivers.provenance import conclude
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap
 from companion.errors import MissionError
@@ -130,10 +131,11 @@ class Flight:
         limit_s = spec.limit_s + sum(step.hold.seconds for step in self.mission.steps if step.hold is not None)
         cpu = time.process_time()
         with ExitStack() as stack:
+            recorder = None
             if spec.record is not None:
                 spec.record.parent.mkdir(parents=True, exist_ok=True)
-                recorder = Recorder(spec.record, threaded=False, **header(companion, self._data))
-                every.append(RecordingTap(companion, stack.enter_context(recorder)))
+                recorder = stack.enter_context(Recorder(spec.record, threaded=False, **header(companion, self._data)))
+                every.append(RecordingTap(companion, recorder))
             end_us = fly_lockstep(
                 companion,
                 self.vehicle,
@@ -145,8 +147,10 @@ class Flight:
                 stop=until,
                 wire=None if spec.link is None else FaultyWire(spec.link, LINK),
             )
-        if not companion.over and not until():
-            companion.failure = companion.failure or f"not over after {limit_s:g} s of simulated time"
+            if not companion.over and not until():
+                companion.failure = companion.failure or f"not over after {limit_s:g} s of simulated time"
+            if recorder is not None:
+                conclude(recorder, companion, meter, None if around is None else around.least)
         verdict = judge(companion, meter, None if around is None else around.least)
         cause = first_cause(verdict, story, around, innovations)
         self.result = FlightResult(

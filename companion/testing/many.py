@@ -11,6 +11,7 @@ from companion.cli.vehicle import LINK, build_vehicle
 from companion.core import Companion, CompanionConfig
 from companion.drivers.lockstep import Pair, fly_lockstep_many
 from companion.drivers.planning import InlinePlanning
+from companion.drivers.provenance import conclude
 from companion.drivers.recording import RecordingTap, header
 from companion.drivers.tick import Tap
 from companion.fleet.missions import Part
@@ -65,6 +66,7 @@ def fly_many(
     taps : more that look on at each.
     """
     companions, vehicles, meters, pairs = [], [], [], []
+    recorders: list[Recorder] = []
     with ExitStack() as stack:
         for k, part in enumerate(parts):
             config = CompanionConfig(seed=seed + k, fleet_number=k + 1 if share else 0)
@@ -76,6 +78,7 @@ def fly_many(
                 file = record / f"{k + 1}.mcap"
                 recorder = stack.enter_context(Recorder(file, threaded=False, **header(companion, part.data)))
                 own.append(RecordingTap(companion, recorder))
+                recorders.append(recorder)
             pairs.append(Pair(companion, vehicle, LINK, InlinePlanning(part.mission.planner_world()), own))
             companions.append(companion)
             vehicles.append(vehicle)
@@ -99,9 +102,11 @@ def fly_many(
         lost = np.random.default_rng(seed)
         carried = lambda now_us, sender, hearer: loss == 0.0 or lost.random() >= loss  # noqa: E731
         end_us = fly_lockstep_many(pairs, limit_s=limit_s, look=look, stop=stop, carried=carried)
-    for companion in companions:
-        if not companion.over and not stop():
-            companion.failure = companion.failure or f"not over after {limit_s:g} s of simulated time"
+        for companion in companions:
+            if not companion.over and not stop():
+                companion.failure = companion.failure or f"not over after {limit_s:g} s of simulated time"
+        for recorder, companion, meter in zip(recorders, companions, meters, strict=False):
+            conclude(recorder, companion, meter)
     return ManyResult(
         verdicts=tuple(judge(c, m) for c, m in zip(companions, meters, strict=True)),
         separation_m=least,
