@@ -1,9 +1,10 @@
 """The vehicle's estimator: what its gates say, and whether its error is what it believes.
 
 A test ratio is the normalised innovation over its gate: above 1 the measurement is refused. ArduPilot's
-EKF_STATUS_REPORT tells variances with the same scale. The bundled vehicle's ratio is sqrt(NIS / gate) with the gate the
-quantile of chi^2 at FT_EKF_GATE, so its own recordings, which say that parameter, give NIS = ratio^2 gate, held against
-the middle 95 % of chi^2. Where truth and a covariance (ODOMETRY) are told, so is NEES = e^T P^-1 e of the position.
+EKF_STATUS_REPORT tells variances with the same scale. NIS is held against the middle 95 % of chi^2: as the bundled
+vehicle's own recording tells it, where its estimator is recorded; else by its ratio, which is sqrt(NIS / gate) with the
+gate the quantile of chi^2 at FT_EKF_GATE, so NIS = ratio^2 gate. Where truth and a covariance (ODOMETRY) are told, NEES =
+e^T P^-1 e of the position is too.
 """
 
 import json
@@ -15,6 +16,7 @@ from logs.report import contract as c
 from logs.report.columns import FloatArray
 from logs.report.flight import Flight
 from logs.report.part import Part, Surroundings, TableRows, lines, row
+from logs.schema import EstimatorState
 
 _STATUS = {
     "velocity": "vel_ratio", "horizontal position": "pos_horiz_ratio", "height": "pos_vert_ratio",
@@ -53,13 +55,14 @@ def estimator_part(flight: Flight, around: Surroundings, metadata: dict[str, str
             part.plots.append(plot)
         figures = [[*row(name, column), int((column > 1.0).sum())] for name, column in columns.items()]
         part.tables.append(c.Table("estimator", what, ("of", "p50", "p95", "max", "refused"), figures))
-        if number == 230 and metadata is not None:
-            part.plots += _nis(t, columns, metadata, part)
+        if number == 230 and metadata is not None and not flight.traffic.records.get(EstimatorState):
+            _nis_by_ratio(t, columns, metadata, part)
         if number == 230:
             accuracy = {"horizontal": rows["m"]["pos_horiz_accuracy"], "vertical": rows["m"]["pos_vert_accuracy"]}
             _against_truth(flight, part, t, accuracy)
     if not any(plot.id.startswith("ratios") for plot in part.plots):
         _against_truth(flight, part, np.empty(0), {})
+    _nis_as_told(flight, part)
     _nees(flight, part)
     _health(flight, part)
     if part.empty:
@@ -72,20 +75,34 @@ def _known(column: FloatArray) -> FloatArray:
     return values
 
 
-def _nis(t: FloatArray, ratios: dict[str, FloatArray], metadata: dict[str, str], part: Part) -> list[c.Plot]:
-    """NIS over its degrees of freedom, one plot for each kind of measurement."""
+def _nis_by_ratio(t: FloatArray, ratios: dict[str, FloatArray], metadata: dict[str, str], part: Part) -> None:
+    """NIS from the ratios and the gate."""
     try:
         gate = float(json.loads(metadata.get("parameters", "{}")).get("FT_EKF_GATE", _GATE))
     except (ValueError, TypeError, AttributeError):
-        return []
-    if not 0.0 < gate < 1.0:
-        return []
-    plots = []
+        return
+    if 0.0 < gate < 1.0:
+        known = [(name, dof) for name, dof in _DOF.items() if name in ratios]
+        _nis(part, [(name, dof, t, ratios[name] ** 2 * float(chdtri(dof, 1.0 - gate))) for name, dof in known])
+
+
+def _nis_as_told(flight: Flight, part: Part) -> None:
+    """NIS as the estimator's own records tell it, sensor by sensor."""
+    found: dict[tuple[str, int], list[tuple[float, float]]] = {}
+    for t_ns, _, state in flight.traffic.records.get(EstimatorState, []):
+        for name, dof, nis in zip(state.sensors.split(","), state.dof, state.nis, strict=False):
+            if dof >= 1.0:
+                seen = found.setdefault((name, int(dof)), [])
+                if not seen or seen[-1][1] != nis:  # else the same measurement again
+                    seen.append((flight.s(t_ns), nis))
+    rows = [(name.replace("_", " "), dof, np.array(seen)) for (name, dof), seen in found.items()]
+    _nis(part, [(name, dof, seen[:, 0], seen[:, 1]) for name, dof, seen in rows])
+
+
+def _nis(part: Part, measured: list[tuple[str, int, FloatArray, FloatArray]]) -> None:
+    """Over its degrees of freedom: a plot for each kind of measurement, and a table of all."""
     rows: TableRows = []
-    for name, dof in _DOF.items():
-        if name not in ratios:
-            continue
-        nis = ratios[name] ** 2 * float(chdtri(dof, 1.0 - gate))
+    for name, dof, t, nis in measured:
         low, high = float(chdtri(dof, 0.975)), float(chdtri(dof, 0.025))
         finite = nis[np.isfinite(nis)]
         if not len(finite):
@@ -93,13 +110,13 @@ def _nis(t: FloatArray, ratios: dict[str, FloatArray], metadata: dict[str, str],
         inside = float(((finite >= low) & (finite <= high)).mean())
         rows.append([name, dof, round(float(finite.mean()), 3), f"{low:.3g} to {high:.3g}", round(100 * inside, 1)])
         levels = (("95 % above", low), ("95 % below", high))
-        note = f"{100 * inside:.0f} % inside the middle 95 % of chi² with {dof} degrees of freedom (mean {dof})."
-        id, series = f"nis-{name.split()[0]}", lines(t, {"NIS": nis}, "dots")
-        plots.append(c.Plot(id, "estimator", f"NIS, {name}", "", series, levels, note))
+        freedom = f"{dof} degree{'s' if dof > 1 else ''} of freedom (mean {dof})"
+        note = f"{100 * inside:.0f} % inside the middle 95 % of chi² with {freedom}."
+        id, series = f"nis-{name.replace(' ', '-')}", lines(t, {"NIS": nis}, "dots")
+        part.plots.append(c.Plot(id, "estimator", f"NIS, {name}", "", series, levels, note))
     columns = ("of", "degrees of freedom", "mean", "middle 95 % of chi²", "inside [%]")
     if rows:
         part.tables.append(c.Table("estimator", "Normalised innovations squared", columns, rows))
-    return plots
 
 
 def _against_truth(flight: Flight, part: Part, t: FloatArray, accuracy: dict[str, FloatArray]) -> None:

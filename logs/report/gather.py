@@ -102,6 +102,7 @@ def _vehicles_own(metadata: Mapping[str, Mapping[str, str]]) -> dict[str, str] |
 def _header(recording: Recording, flight: Flight, around: Surroundings, clearance: FloatArray) -> c.Header:
     told = _outcome(recording.metadata)
     measured = _measured(flight, clearance)
+    measured |= {name: told[name] for name in measured if isinstance(told.get(name), float)}
     phase, failure = _end(flight)
     checks = _checks(told, measured, around)
     ok: bool | None = told.get("ok") if isinstance(told.get("ok"), bool) else None
@@ -155,7 +156,7 @@ def _measured(flight: Flight, clearance: FloatArray) -> dict[str, float]:
         gaps_ms = 1e3 * np.diff(flight.times(max(sent, key=len)))
         p99 = percentiles(gaps_ms, [99])[0]
         figures |= {"setpoint_gap_p99_ms": p99, "setpoint_gap_max_ms": float(gaps_ms.max())}
-    return figures
+    return {name: float(value) for name, value in figures.items()}
 
 
 def _checks(told: dict[str, Any], measured: dict[str, float], around: Surroundings) -> list[c.Check]:
@@ -192,7 +193,7 @@ def _facts(recording: Recording, flight: Flight, measured: dict[str, float]) -> 
     kind = "a companion's" if traffic.companions else "a bundled vehicle's own" if "vehicle" in metadata else "imported"
     facts.append(("kind", kind))
     for name, value in metadata.get("run", {}).items():
-        if value and len(value) < 200:
+        if value and len(value) < 200 and name != "mission":
             facts.append((name.replace("_", " "), value))
     seed = _seed(metadata)
     if seed is not None and "seed" not in metadata.get("run", {}):

@@ -17,6 +17,7 @@ MOST_PLANS = 300
 """Ways shown; of more the first of each stretch of time."""
 PLAN_POINTS = 40
 MOST_MOVERS = 400
+MOST_SHAPES = 2000
 LOST_S = 2.0
 """A ball not told of for so long is another one when it is told of again."""
 NEAR_M = 1.5
@@ -36,7 +37,7 @@ def scene_of(flight: Flight, around: Surroundings) -> tuple[c.Scene, Motion, Flo
         least = (float(aloft.t[k]), (float(place[0]), float(place[1]), float(place[2])), float(clearance[k]))
     scene = c.Scene(
         path=_path(flight),
-        obstacles=around.obstacles or mirrored(flight),
+        obstacles=(*around.obstacles, *mirrored(flight, seen_only=bool(around.obstacles or around.bounds))),
         bounds=around.bounds,
         fence=around.fence,
         truth=_track(flight.truth) if len(flight.truth.t) else None,
@@ -152,23 +153,27 @@ def _clearance(motion: Motion, around: Surroundings, movers: list[c.Mover]) -> F
     return np.where(np.isfinite(found), found, np.nan)
 
 
-def mirrored(flight: Flight) -> tuple[c.Json, ...]:
-    """Obstacles of the recording's SceneUpdates (east, north, up), where the mission itself is not to be had."""
+def mirrored(flight: Flight, seen_only: bool = False) -> tuple[c.Json, ...]:
+    """What stands about by the recording's SceneUpdates (east, north, up), each thing as it was last told.
+
+    `seen_only`: what the vehicle saw on its way; for where the mission itself tells the rest.
+    """
     solids: dict[str, list[c.Json]] = {}
     for _, update in flight.traffic.mirrors:
-        for entity in getattr(update, "entities", []):
-            if "mover" in entity.id.lower() or "vehicle" in entity.id.lower():
+        for entity in update.entities:
+            kind = next((pair.value for pair in entity.metadata if pair.key == "kind"), "")
+            if kind in ("mover", "bounds", "fence") or (seen_only and entity.id != "seen"):
                 continue
             shapes: list[c.Json] = []
-            for cube in getattr(entity, "cubes", []):
+            for cube in entity.cubes:
                 p, s = cube.pose.position, cube.size
                 low = (p.y - s.y / 2, p.x - s.x / 2, p.z - s.z / 2)
-                shapes.append(c.box(low, (p.y + s.y / 2, p.x + s.x / 2, p.z + s.z / 2)))
-            for cylinder in getattr(entity, "cylinders", []):
+                shapes.append(c.box(low, (p.y + s.y / 2, p.x + s.x / 2, p.z + s.z / 2), entity.id))
+            for cylinder in entity.cylinders:
                 p, s = cylinder.pose.position, cylinder.size
-                shapes.append(c.cylinder((p.y, p.x, p.z - s.z / 2), s.x / 2, s.z))
-            for ball in getattr(entity, "spheres", []):
+                shapes.append(c.cylinder((p.y, p.x, p.z - s.z / 2), s.x / 2, s.z, entity.id))
+            for ball in entity.spheres:
                 p = ball.pose.position
-                shapes.append(c.sphere((p.y, p.x, p.z), ball.size.x / 2))
-            solids[entity.id] = shapes[:2000]
-    return tuple(shape for shapes in solids.values() for shape in shapes)[:20_000]
+                shapes.append(c.sphere((p.y, p.x, p.z), ball.size.x / 2, entity.id))
+            solids[entity.id] = shapes[:MOST_SHAPES]
+    return tuple(shape for shapes in solids.values() for shape in shapes)[: 10 * MOST_SHAPES]

@@ -36,6 +36,8 @@ MOST_OTHERS = 64
 """Senders that are followed."""
 _NO_AUTOPILOT = mavlink.MAV_AUTOPILOT_INVALID
 _EMPTY_RATE = (0, 0)
+_UNSEEN = (schema.EstimatorBegin, schema.EstimatorInputs)
+"""Records that no report shows: what a re-run of the estimator is fed."""
 _NO_ROTORS = (float("nan"),) * 8
 
 Sender = tuple[str, str, int, int]
@@ -147,6 +149,8 @@ class _Framers(dict[tuple[str, str], Framer]):
 def _record(traffic: Traffic, kind: type[Any], message: RecordedMessage) -> None:
     if kind is schema.Tick:
         traffic.companions = True
+        return
+    if kind in _UNSEEN:
         return
     try:
         record = schema.decode(kind, message.data)
