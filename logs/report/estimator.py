@@ -3,8 +3,8 @@
 A test ratio is the normalised innovation over its gate: above 1 the measurement is refused. ArduPilot's
 EKF_STATUS_REPORT tells variances with the same scale. NIS is held against the middle 95 % of chi^2: as the bundled
 vehicle's own recording tells it, where its estimator is recorded; else by its ratio, which is sqrt(NIS / gate) with the
-gate the quantile of chi^2 at FT_EKF_GATE, so NIS = ratio^2 gate. Where truth and a covariance (ODOMETRY) are told, NEES =
-e^T P^-1 e of the position is too.
+gate the quantile of chi^2 at FT_EKF_GATE: NIS = ratio^2 gate. Where truth and a covariance (ODOMETRY) are told, so is
+NEES = e^T P^-1 e of the position.
 """
 
 import json
