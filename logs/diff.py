@@ -140,13 +140,16 @@ class _Side:
             if not name:
                 continue
             self.counts[message.channel.topic] += 1
-            if name not in _EVENTS and name not in ("PARAM_VALUE", "HEARTBEAT"):
+            if name not in _EVENTS and name not in ("PARAM_VALUE", "HEARTBEAT", *_IMPORTED):
                 continue
             item = row(recording, message)
             values = item.values
             if name == "PARAM_VALUE" and item.system is not None and item.component is not None:
                 key = (item.system, item.component, values["param_id"])
                 parameters[key] = values["param_value"], values["param_type"]
+            elif name in _IMPORTED:
+                key_field, value_field = _IMPORTED[name]
+                parameters[0, 0, values[key_field]] = values[value_field], 0
             elif name == "HEARTBEAT":
                 if values["autopilot"] == mavlink.MAV_AUTOPILOT_PX4 and item.system is not None:
                     bytewise.add(item.system)
@@ -187,6 +190,8 @@ _EVENTS: dict[str, str] = {
     "OperatorCommand": "order: {name} {values}",
 }
 """What counts as an event, and how it is told; and changes of mode."""
+_IMPORTED = {"Parameter": ("name", "value"), "PARM": ("Name", "Value")}
+"""Parameters in what was a .ulg or a .BIN; of no system there."""
 
 
 def _pairs(one: Iterator[Row], other: Iterator[Row]) -> Iterator[tuple[Row, Row]]:

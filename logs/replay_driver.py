@@ -4,7 +4,6 @@ Every datagram has an absolute deadline; the last `SPIN_S` before it are spent l
 process wakes late. Datagrams are read ahead of their time, while there is nothing else to do.
 """
 
-import gc
 import time
 from array import array
 from collections import deque
@@ -23,6 +22,8 @@ AHEAD = 256
 """Datagrams read ahead at most."""
 LEISURE_S = 0.005
 """There is time to read ahead when the next deadline is further away than this [s]."""
+TELLING_S = 0.001
+"""Progress is told when nothing is due within this [s], unless it would be long ago."""
 MAX_SPACINGS = 1_000_000
 """So many spacings are measured at most."""
 
@@ -76,12 +77,7 @@ def replay(
     answering : answers what peers ask; without it, that is read and thrown away.
     """
     running = _Replay(link, progress, progress_s, stop, keys, answering)
-    gc.collect()
-    gc.freeze()  # what is here now stays: no collection on the way walks through it again
-    try:
-        return running.run(traffic)
-    finally:
-        gc.unfreeze()
+    return running.run(traffic)
 
 
 class _Replay:
@@ -131,7 +127,7 @@ class _Replay:
                 deadline_s = time.monotonic() + left_s
                 while time.monotonic() < deadline_s:
                     pass
-            if left_s > LEISURE_S or time.monotonic() - self._told_s > 10 * self._tell_every_s:
+            if left_s > TELLING_S or time.monotonic() - self._told_s > 4 * self._tell_every_s:
                 self._progress()
         self._finish_answers()
         end = self._now(self._p99_s())

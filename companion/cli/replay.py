@@ -1,5 +1,6 @@
 """`companion replay`: recorded traffic once more; the vehicle's to a ground station, and its answers."""
 
+import gc
 from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
@@ -77,6 +78,8 @@ def replay_log(
         what = "WHAT WAS SENT TO THE VEHICLE" if to_a_vehicle else "the vehicle's traffic"
         text = f"replaying {what}, {total} datagrams, to {where} at rate {rate:g}"
         out.print(show.plain(f"{text}{f' ({HELP})' if keys.there else ''}"), soft_wrap=True)
+        gc.collect()
+        gc.freeze()  # what is here now stays: no collection on the way walks through it again
         end = replay(
             source() if rounds == 1 else repeated(source, rounds),
             link,
@@ -86,6 +89,7 @@ def replay_log(
             keys=keys,
             answering=answering,
         )
+        gc.unfreeze()
         if out.is_terminal:
             out.file.write("\r\x1b[2K")
     expected = None if rounds is None else total * rounds

@@ -32,7 +32,8 @@ def import_ulog(source: Path, target: Path, force: bool = False) -> Imported:
         reason = "reading it wants the package pyulog: pip install 'mavlink-companion[ulog]'"
         raise RecordingError(source, reason) from error
     try:
-        log = ULog(str(source), disable_str_exceptions=True)
+        with open(source, "rb") as file:
+            log = ULog(file, disable_str_exceptions=True)
     except Exception as error:  # it raises what its parsing happens to raise, TypeError for a wrong beginning
         raise RecordingError(source, f"pyulog cannot read it: {error or type(error).__name__}") from error
     done = Imported(target)

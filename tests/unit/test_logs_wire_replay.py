@@ -7,7 +7,8 @@ from logs_traffic import captured, heartbeat, record_captured, sent_by_ground
 
 from logs import Recording, RecordingError
 from logs.recorder import Recorder
-from logs.wire_replay import paced, vehicle_link, vehicle_traffic
+from logs.selection import Selection
+from logs.wire_replay import Due, Pace, paced, repeated, sent_traffic, vehicle_link, vehicle_links, vehicle_traffic
 
 
 @pytest.fixture(scope="module")
@@ -58,3 +59,62 @@ def test_stamps_that_run_backwards_do_not_send_into_the_past(tmp_path: Path) -> 
 def test_a_rate_that_is_no_rate_is_refused(rate: float) -> None:
     with pytest.raises(ValueError, match="expected a positive number"):
         paced([], rate)
+
+
+def test_what_was_sent_comes_only_by_its_own_name_and_then_alone(recording: Recording) -> None:
+    sent = [packet for _, packet in captured() if sent_by_ground(packet)]
+    assert sent
+    assert [item.data for item in paced(sent_traffic(recording, "autopilot"))] == sent
+
+
+def test_only_links_with_an_autopilot_are_the_vehicles(recording: Recording) -> None:
+    assert vehicle_links(recording) == ("autopilot",)
+
+
+def test_a_stretch_begins_at_once_and_says_where_it_is(recording: Recording) -> None:
+    wanted = Selection(start_s=2.0, duration_s=1.0, names=("ATTITUDE",))
+    due = list(paced(vehicle_traffic(recording, "autopilot", wanted), 2.0, origin_ns=0))
+    assert due[0].due_s == 0.0
+    assert 2.0 <= due[0].at_s < 2.1
+    assert due[-1].at_s <= 3.0
+    assert due[-1].due_s == pytest.approx((due[-1].at_s - due[0].at_s) / 2.0)
+    assert all(item.data[7] == 30 for item in due)
+
+
+def test_a_loop_goes_on_with_the_mean_spacing_between_its_rounds() -> None:
+    traffic = [Due(0.0, b"a"), Due(1.0, b"b"), Due(4.0, b"c")]
+    found = list(repeated(lambda: traffic, 2))
+    assert [(item.due_s, item.data) for item in found] == [
+        (0.0, b"a"),
+        (1.0, b"b"),
+        (4.0, b"c"),
+        (6.0, b"a"),
+        (7.0, b"b"),
+        (10.0, b"c"),
+    ]
+    assert list(repeated(lambda: [])) == []
+    endless = repeated(lambda: [Due(0.0, b"x")])
+    assert [next(endless).due_s for _ in range(3)] == [0.0, 1.0, 2.0]
+
+
+def test_a_pause_moves_everything_behind_it() -> None:
+    pace, due = Pace(100.0), Due(5.0, b"x")
+    assert pace.deadline(due) == 105.0
+    pace.toggle(102.0)
+    assert pace.paused
+    assert pace.deadline(due) is None
+    pace.toggle(112.0)
+    assert pace.deadline(due) == 115.0
+
+
+def test_a_step_sends_one_and_stands_still_and_the_next_keeps_its_distance() -> None:
+    pace = Pace(100.0)
+    first, second = Due(5.0, b"1"), Due(6.5, b"2")
+    pace.step(102.0)
+    deadline = pace.deadline(first)
+    assert deadline is not None
+    assert deadline <= 102.0
+    pace.sent(first)
+    assert pace.deadline(second) is None
+    pace.toggle(200.0)
+    assert pace.deadline(second) == pytest.approx(201.5)
