@@ -237,6 +237,7 @@ def replay(
             help="Send what was sent to the vehicle, setpoints and commands, and nothing else: IT WILL OBEY.",
         ),
     ] = False,
+    live: Live = None,
     json: Json = False,
 ) -> None:
     """Send a recording's vehicle traffic to a ground station, with its original spacing.
@@ -248,7 +249,13 @@ def replay(
     wanted = _selection(topic, message, sysid, start, duration)
     rounds = None if loop else 1
     code = replay_log(
-        log, to, rate, json, wanted=wanted, link_name=endpoint, rounds=rounds, answer=answer, to_a_vehicle=to_a_vehicle
+        *(log, to, rate, json),
+        wanted=wanted,
+        link_name=endpoint,
+        rounds=rounds,
+        answer=answer,
+        to_a_vehicle=to_a_vehicle,
+        live=live,
     )
     raise typer.Exit(code)
 

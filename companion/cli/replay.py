@@ -2,6 +2,7 @@
 
 import gc
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,8 @@ from wire.dialect import mavlink
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
+TELL_S, LIVE_S = 0.1, 0.005
+"""How often a person is told how far it is, and the live page (a tenth as often, while it is busy)."""
 MOST_KEPT = 300_000
 """Datagrams read before the replay begins, about 60 MB; of more each is read a little before its time."""
 
@@ -43,6 +46,7 @@ def replay_log(
     rounds: int | None = 1,
     answer: bool = True,
     to_a_vehicle: bool = False,
+    live: int | None = None,
 ) -> int:
     """Replay `path` to `to`. Returns the exit code.
 
@@ -53,6 +57,7 @@ def replay_log(
     rounds : how many times; None: until it is ended.
     answer : whether a ground station's questions are answered from the recording.
     to_a_vehicle : send what was sent to the vehicle, and nothing else.
+    live : port of a live page that shows it, 0 for one that is free; None: there is none.
     """
     out = show.console()
     wanted = wanted or Selection()
@@ -73,7 +78,13 @@ def replay_log(
     source: Callable[[], Iterator[Due]] = kept.__iter__ if total <= MOST_KEPT else again
     answering = Answering(recording.messages(), name, _mission(recording)) if answer and not to_a_vehicle else None
     operator = Operator()
-    with UdpLink("ground", endpoint) as link, operator.listening(), keyboard() as keys:
+    tell = _teller(out, rate, total)
+    with ExitStack() as stack:
+        link = stack.enter_context(UdpLink("ground", endpoint))
+        stack.enter_context(operator.listening())
+        keys = stack.enter_context(keyboard())
+        if live is not None:
+            tell = _shown(stack, live, recording, tell, out)
         where = f"{endpoint}" if endpoint.kind == "udpout" else f"whoever calls {endpoint}"
         what = "WHAT WAS SENT TO THE VEHICLE" if to_a_vehicle else "the vehicle's traffic"
         text = f"replaying {what}, {total} datagrams, to {where} at rate {rate:g}"
@@ -83,8 +94,8 @@ def replay_log(
         end = replay(
             source() if rounds == 1 else repeated(source, rounds),
             link,
-            _teller(out, rate, total),
-            progress_s=0.1,
+            tell,
+            progress_s=TELL_S if live is None else LIVE_S,
             stop=lambda: operator.asked > 0,
             keys=keys,
             answering=answering,
@@ -118,6 +129,27 @@ def replay_log(
         spacing = f", spacing right to {end.spacing_error_p99_s * 1e3:.2f} ms (p99)"
         out.print(f"{end.datagrams}{of} datagrams in {end.elapsed_s:.1f} s{spacing}{answers}{nobody}")
     return 0 if ok else 1
+
+
+def _shown(
+    stack: ExitStack, port: int, recording: Recording, tell: Callable[[Progress], None], out: Console
+) -> Callable[[Progress], None]:
+    """Serve the live page until the stack is left; what is told then is told to it too."""
+    from companion.service.livereplay import replayed_live
+
+    shown, address = stack.enter_context(replayed_live(recording, port))
+    out.print(f"live page: {address}", highlight=False, soft_wrap=True)
+
+    last_s = -TELL_S
+
+    def told(progress: Progress) -> None:
+        nonlocal last_s
+        shown.at_s = progress.at_s
+        if progress.elapsed_s - last_s >= TELL_S or progress.paused:
+            last_s = progress.elapsed_s
+            tell(progress)
+
+    return told
 
 
 def _link(recording: Recording, name: str | None) -> str:

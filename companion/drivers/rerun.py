@@ -13,7 +13,7 @@ from companion.errors import RerunError
 from companion.missionfile import parse_mission
 from logs.compare import Comparison, Output, compare
 from logs.reader import Recording
-from logs.table import ticks
+from logs.table import RecordedTick, ticks
 from wire.datagram import Datagram
 
 NOTHING: Changes = {}
@@ -71,18 +71,24 @@ def rerun(
     produced: list[Output] = []
     count, first_us, last_us = 0, 0, 0
     for row in ticks(recording):
-        inputs = [(stamp // 1000, item) for stamp, item in ((s, _input(entry)) for s, entry in row.inputs) if item]
-        outputs = companion.step(row.now_us, [item for _, item in inputs])
-        tick = Tick(row.index, row.now_us, inputs, outputs, row.now_us)
+        tick = ticked(companion, row)
+        inputs, outputs = tick.inputs, tick.outputs
         assert row.declared is not None  # `ticks` yields no row without it
         recorded.extend(compared(row.index, [row.declared, *(entry for _, entry in row.outputs)]))
         phase = companion.phase.value
-        ticked = tick_record(tick, entries((item for _, item in inputs), phase))
-        produced.extend(compared(row.index, [ticked, *entries(outputs, phase)]))
+        record = tick_record(tick, entries((item for _, item in inputs), phase))
+        produced.extend(compared(row.index, [record, *entries(outputs, phase)]))
         progress(tick)
         first_us = row.now_us if count == 0 else first_us
         last_us, count = row.now_us, count + 1
     return Rerun(companion, count, (last_us - first_us) / 1e6, compare(recorded, produced))
+
+
+def ticked(companion: Companion, row: RecordedTick) -> Tick:
+    """Give a companion the inputs of one recorded tick."""
+    inputs = [(stamp // 1000, item) for stamp, item in ((s, _input(entry)) for s, entry in row.inputs) if item]
+    outputs = companion.step(row.now_us, [item for _, item in inputs])
+    return Tick(row.index, row.now_us, inputs, outputs, row.now_us)
 
 
 def _input(entry: Any) -> Any:

@@ -117,12 +117,12 @@ class Feed:
 
     # ---- written by the flight loop -----------------------------------------------------------------------------
 
-    def begin(self, header: contract.Header, scene: contract.Scene) -> None:
-        """A new flight: every page begins anew."""
+    def begin(self, header: contract.Header, scene: contract.Scene, *, orders: bool = True) -> None:
+        """A new flight, which takes orders or not: every page begins anew."""
         with self._lock:
             self._flight, self._number = _Flight(header, scene), self._number + 1
             self._orders.clear()
-            self.flying = True
+            self.flying = orders
 
     def sample(self, row: Row) -> None:
         """A moment: its time [s], then `COLUMNS`; NaN is not known."""

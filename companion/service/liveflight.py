@@ -35,10 +35,17 @@ class LiveFlight:
     ----------
     feed : where it goes; a flight begins in it with this object.
     facts : of the header.
+    orders : whether pages may give some.
     """
 
     def __init__(
-        self, feed: Feed, companion: Companion, meter: FlightMeter, facts: Mapping[str, str] | None = None
+        self,
+        feed: Feed,
+        companion: Companion,
+        meter: FlightMeter,
+        facts: Mapping[str, str] | None = None,
+        *,
+        orders: bool = True,
     ) -> None:
         self._feed, self._companion, self._meter = feed, companion, meter
         self._phase = companion.phase
@@ -52,7 +59,7 @@ class LiveFlight:
         header = contract.Header(
             mission.name, phase=companion.phase.value, facts=(("seed", companion.config.seed), *told)
         )
-        feed.begin(header, scene_of(mission))
+        feed.begin(header, scene_of(mission), orders=orders)
 
     def operator(self, at_hand: Callable[[int], Order | None]) -> Callable[[int], Order | None]:
         """Whoever is at hand, and when there is nobody, a page; one order a tick."""
