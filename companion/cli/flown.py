@@ -52,14 +52,15 @@ class Flown:
     losses: dict[str, int]
     path: FloatArray
 
-    def tell(self, as_json: bool) -> int:
-        """Print what came of it; returns the exit code."""
+    def tell(self, as_json: bool, page: Path | None = None) -> int:
+        """Print what came of it, and where its `page` is if there is one; returns the exit code."""
+        report = {} if page is None else {"report": str(page)}
         if as_json:
-            numbers = {"recording": str(self.recording), "messages_recorded": self.messages, **self.losses}
+            numbers = {"recording": str(self.recording), **report, "messages_recorded": self.messages, **self.losses}
             show.print_json({**show.verdict_json(self.verdict), **numbers})
         else:
             shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in self.losses.items())
-            details = {"messages": str(self.messages), "losses": shown, "recording": str(self.recording)}
+            details = {"messages": str(self.messages), "losses": shown, "recording": str(self.recording), **report}
             show.print_verdict(self.verdict, self.expect, details, Console())
         return 0 if self.verdict.ok else 1
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from companion.cli import show
 from companion.cli.flown import fly_recorded, vehicle_log
 from companion.cli.operator import Operator
 from companion.core import CompanionConfig
@@ -13,6 +14,7 @@ from companion.fleet.missions import has_vehicles, split
 from companion.missionfile import parse_mission, read_mission_file
 from companion.service.queue import recording_file
 from companion.vehiclelink import VEHICLE_LINK
+from logs.errors import LogsError
 from logs.parts import Rotation
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
@@ -45,7 +47,7 @@ def fly_demo(
         flown = fly_recorded(
             mission, data, endpoints, file, config, operator, rotation=rotation, live=live, watch=vehicle
         )
-        return flown.tell(as_json)
+    return flown.tell(as_json, page_beside(flown.recording))
 
 
 def fly_mission(
@@ -91,6 +93,19 @@ def fly_mission(
         file = recording_file(record, mission)
         flown = fly_recorded(mission, data, endpoints, file, config, operator, rotation=rotation, live=live)
         return flown.tell(as_json)
+
+
+def page_beside(recording: Path) -> Path | None:
+    """Write a recording's page beside it; None: it could not be, which is told and is no fault of the flight."""
+    from companion.cli.report import write_report
+
+    page = recording.with_suffix(".html")
+    try:
+        write_report(recording, page)
+    except LogsError as error:
+        show.console().print(show.plain(str(error)), soft_wrap=True)
+        return None
+    return page
 
 
 def rotation_of(size_mb: float | None, seconds: float | None) -> Rotation | None:

@@ -58,6 +58,12 @@ def test_nothing_is_lost_between_the_sockets_and_the_recording(demo):
     assert counts["tx"] == int(sockets["autopilot.tx_datagrams"]) == int(sockets["autopilot.handed"])
 
 
+def test_a_page_of_the_flight_lies_beside_its_recording(demo):
+    page = Path(demo["report"])
+    assert page == Path(demo["recording"]).with_suffix(".html")
+    assert page.read_text("utf-8").startswith("<!doctype html>")
+
+
 def test_the_recording_of_real_sockets_and_real_jitter_runs_again_bit_for_bit(demo):
     done = companion("rerun", demo["recording"], "--json")
     assert done.returncode == 0, done.stdout + done.stderr
