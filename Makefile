@@ -9,7 +9,7 @@ MAVPROXY := $(CURDIR)/$(PEERS)/mavproxy
 PACKAGES := companion fakevehicle planner logs wire
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test soak test-clients lint check format bench bench-peers pin web clean
+.PHONY: help demo test soak test-clients lint check format bench bench-peers pin readers web clean
 help:            ## show this
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
@@ -49,6 +49,9 @@ bench-peers: $(PEERS)/.installed ## what benchmarks compare with, in a folder of
 
 pin: $(STAMP)    ## write constraints.txt from what is installed now
 	{ head -1 constraints.txt; $(BIN)/pip freeze --all --exclude-editable | grep -v '^pip==' ; } > constraints.tmp && mv constraints.tmp constraints.txt
+
+readers:         ## other people's readers of recordings, for tests/readers (wants node and npm)
+	cd tests/readers && npm ci --no-audit --no-fund --ignore-scripts
 
 web:             ## build the page of reports and of the live view from web/ (wants node and npm)
 	cd web && npm ci --no-audit --no-fund && npm run build

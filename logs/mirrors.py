@@ -207,6 +207,7 @@ def sampled(control_points: FloatArray, knots: FloatArray) -> FloatArray:
     return d[3]
 
 
+_FIX_LOOK = {"color": CLASSES["Color"](r=0.29, g=0.72, b=0.48, a=1.0)}
 _LEVELS = (5, 5, 5, 4, 3, 2, 2, 1)
 """foxglove.Log.Level of MAV_SEVERITY 0 .. 7: the three worst are fatal, notices are information."""
 
@@ -235,8 +236,9 @@ def _time(ns: int) -> bytes:
     return bytes([10, len(data)]) + data
 
 
-def _fix(fix: Fix) -> dict[str, float]:
-    return {"latitude": fix.latitude, "longitude": fix.longitude, "altitude": fix.altitude}
+def _fix(fix: Fix) -> dict[str, Any]:
+    """Its fields; the colour is optional in the schema, but Rerun (0.41) takes no fix without one."""
+    return _FIX_LOOK | {"latitude": fix.latitude, "longitude": fix.longitude, "altitude": fix.altitude}
 
 
 def _poses(ns: int, points: FloatArray | Sequence[Point]) -> bytes:

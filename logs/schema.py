@@ -205,6 +205,16 @@ class EstimatorState:
     accepted: tuple[float, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Tracking:
+    """How far the vehicle says it is from where it should be: the distance, and the way there, NED [m]."""
+
+    error: float
+    north: float
+    east: float
+    down: float
+
+
 Record = (
     Tick
     | PlanWanted
@@ -219,6 +229,7 @@ Record = (
     | EstimatorBegin
     | EstimatorInputs
     | EstimatorState
+    | Tracking
 )
 RecordT = TypeVar("RecordT", bound=Record)
 
@@ -236,10 +247,11 @@ RECORDS: tuple[type[Record], ...] = (
     EstimatorBegin,
     EstimatorInputs,
     EstimatorState,
+    Tracking,
 )
 INPUTS: tuple[type[Record], ...] = (PlanReady, OperatorCommand, ReplanReady)
 OUTPUTS: tuple[type[Record], ...] = (PlanWanted, Note, Reference, ReplanWanted)
-ASIDE: tuple[type[Record], ...] = (Loss, EstimatorBegin, EstimatorInputs, EstimatorState)
+ASIDE: tuple[type[Record], ...] = (Loss, EstimatorBegin, EstimatorInputs, EstimatorState, Tracking)
 """Records of the recorder itself and of the vehicle's inside, which did not cross the seam."""
 
 TOPICS: dict[type[Record], str] = {
@@ -253,6 +265,7 @@ TOPICS: dict[type[Record], str] = {
     ReplanWanted: "/companion/replan_wanted",
     ReplanReady: "/companion/replan_ready",
     Loss: "/companion/losses",
+    Tracking: "/companion/tracking",
     EstimatorBegin: "/vehicle/estimator/begin",
     EstimatorInputs: "/vehicle/estimator/inputs",
     EstimatorState: "/vehicle/estimator/state",

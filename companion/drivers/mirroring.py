@@ -5,7 +5,7 @@ the recorder's thread makes messages of it. The world is turned into shapes befo
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,10 +15,11 @@ from companion.drivers.tick import Tick
 from companion.geofence import Geofence, Outline
 from companion.mission import Mission, solid_of
 from companion.phases import Phase
-from companion.seam import Note, PlanReady, ReplanReady
+from companion.seam import Note, PlanReady, Reference, ReplanReady
 from companion.seeing.sight import Sight
 from logs.mirrors import Body, Fix, Mirror, Plan, Said, Scene
 from logs.scenery import MOST_ENTITIES, Ball, Cells, Cube, Cylinder, Entity, Prism, runs_of
+from logs.schema import Tracking
 from planner import PointCloud
 from planner import worlds as planned
 from planner.voxels import VoxelGrid
@@ -52,7 +53,7 @@ class Mirroring:
         self._map_version, self._tracks_version, self._movers = 0, 0, 0
         self._placed = False
 
-    def __call__(self, tick: Tick) -> Iterator[Mirror]:
+    def __call__(self, tick: Tick) -> Iterator[Mirror | Tracking]:
         """In the order in which they should be told."""
         if self._world is not None:
             yield self._world
@@ -60,7 +61,7 @@ class Mirroring:
         for _, item in tick.inputs:
             if isinstance(item, PLANS):
                 yield from _plan(item)
-        yield from self._vehicle(tick.now_us)
+        yield from self._vehicle(tick)
         if tick.now_us - self._scene_us >= SCENE_US:
             yield from self._seen(tick.now_us)
         for output in tick.outputs:
@@ -69,14 +70,15 @@ class Mirroring:
                 words = (text, who) if said and who == "vehicle" else (output.text, "companion")
                 yield Said(output.level.value, *words)
 
-    def _vehicle(self, now_us: int) -> Iterator[Mirror]:
-        companion, told = self._companion, self._companion.telemetry
+    def _vehicle(self, tick: Tick) -> Iterator[Mirror | Tracking]:
+        now_us, companion, told = tick.now_us, self._companion, self._companion.telemetry
         self._placed = self._placed or companion.phase not in NOT_PLACED
         if told.position_us != self._position_us and now_us - self._body_us >= BODY_US and self._placed:
             place = (told.position_n - companion.origin_n).tolist()
             angles = (told.roll, told.pitch, told.yaw)
             if told.position_us is not None and all(map(math.isfinite, (*place, *angles))):
                 yield Body(told.position_us * 1000, (place[0], place[1], place[2]), *angles)
+                yield from _tracking(tick, place, told.position_us)
             self._body_us, self._position_us = now_us, told.position_us
         if told.global_e7 != self._global_e7 and now_us - self._fix_us >= FIX_US:
             self._fix_us, self._global_e7 = now_us, told.global_e7
@@ -103,6 +105,16 @@ class Mirroring:
             yield Scene(
                 [Entity(f"mover/{k}", "mover", [b], MOVING, {}, MOVER_LIFETIME_S) for k, b in enumerate(balls)], gone
             )
+
+
+def _tracking(tick: Tick, place: Sequence[float], position_us: int) -> Iterator[Tracking]:
+    """How far a position is from the tick's reference, which is taken back to when the position was told."""
+    for output in tick.outputs:
+        if isinstance(output, Reference):
+            age_s = (tick.now_us - position_us) * 1e-6
+            pairs = zip(output.position_m.tolist(), output.velocity_m.tolist(), place, strict=True)
+            north, east, down = (wanted - speed * age_s - here for wanted, speed, here in pairs)
+            yield Tracking(math.sqrt(north * north + east * east + down * down), north, east, down)
 
 
 def _plan(ready: PlanReady | ReplanReady) -> Iterator[Plan]:

@@ -255,8 +255,12 @@ class RecordingTap:
     def _mirror(self, recorder: Recorder, mirroring: Mirroring, tick: Tick) -> None:
         """What viewers are shown; a fault in it costs the rest of it, not the recording."""
         try:
-            for mirror in mirroring(tick):
-                recorder.mirror(mirror, log_time_ns=tick.sent_us * 1000, now_us=tick.now_us, tick=tick.index)
+            for shown in mirroring(tick):
+                at: dict[str, int] = {"log_time_ns": tick.sent_us * 1000, "now_us": tick.now_us, "tick": tick.index}
+                if isinstance(shown, schema.Tracking):
+                    recorder.message(schema.TOPICS[schema.Tracking], shown, **at)
+                else:
+                    recorder.mirror(shown, **at)
         except Exception as error:
             self._mirroring = None
             self._tell(f"viewers are shown no more of this flight: {type(error).__name__}: {error}")

@@ -169,6 +169,7 @@ def test_words_and_places_on_the_earth_are_told_as_they_are():
     assert [read("Log", told(Said(k, ""))[0][1]).level for k in range(8)] == [5, 5, 5, 4, 3, 2, 2, 1]
     ((topic, data),) = told(Fix(47.25, -122.5, 488.0))
     fix = read("LocationFix", data)
+    assert fix.color.a == 1.0  # Rerun refuses a fix without a colour
     assert (topic, fix.latitude, fix.longitude, fix.altitude) == ("/map/position", 47.25, -122.5, 488.0)
 
 

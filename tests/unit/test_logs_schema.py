@@ -51,6 +51,10 @@ def test_every_record_comes_back_as_it_was() -> None:
             movers=(0.1,) * 9 + (math.inf,),
         ),
         schema.Loss("autopilot.kernel_drops", 12),
+        schema.Tracking(error=0.5, north=0.3, east=-0.4, down=0.0),
+        schema.EstimatorBegin(7, True, '{"FT_EKF_GATE": 5.0}', (0.2, 0.0, 0.4), 9.81, 4000),
+        schema.EstimatorInputs(7, (0.1,) * 6, (1.0,), (0.5,) * 15),
+        schema.EstimatorState(7, (1.0,) * 3, (2.0,) * 3, (3.0,) * 3, (1.0, 0.0, 0.0, 0.0), (), (), (), resets=2),
         schema.ReplanReady(request_id=7, kind="keep", certified=True, clearance=math.inf, backup_knots=(0.0, 1.0)),
     ]
     assert {type(record) for record in records} == set(schema.RECORDS)
