@@ -63,6 +63,7 @@ class ServiceConfig(BaseModel):
     rotate_mb: Annotated[float, Field(ge=0.1)] | None = None
     rotate_s: Annotated[float, Field(ge=1)] | None = None
     http: str | None = "127.0.0.1:8780"
+    live: Annotated[int, Field(ge=0, le=65535)] | None = None  # port of the live page, on this machine
     system_id: Annotated[int, Field(ge=1, le=255)] | None = None
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
     log: Literal["json", "text"] = "json"

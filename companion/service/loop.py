@@ -28,9 +28,12 @@ from companion.ground.station import GroundStation
 from companion.phases import AIRBORNE
 from companion.seam import Level, Order
 from companion.service.choice import Choice
+from companion.service.feed import Feed
 from companion.service.http import served
 from companion.service.idle import Idle
 from companion.service.jsonlog import Log
+from companion.service.live import served_live
+from companion.service.liveflight import LiveFlight
 from companion.service.queue import Ready, make_room, recording_file
 from companion.service.snapshot import VERDICT_KEYS
 from companion.service.systemd import Systemd
@@ -81,6 +84,7 @@ class Service:
         )
         self._idle, self._telling = Idle(self._core), Telling(log)
         self._choice = Choice(config, self._idle, self._telling)
+        self._feed: Feed | None = None
 
     def run(self) -> int:
         """Run until a signal ends it; returns the exit code.
@@ -95,6 +99,12 @@ class Service:
             if page is not None:
                 host, port = stack.enter_context(served(page, telling.board))
                 telling.say(Level.INFO, f"the page is at http://{host}:{port}/")
+            if self._config.live is not None:
+                self._feed = Feed()
+                address = stack.enter_context(served_live(self._config.live, self._feed))
+                # not said: notes are on the page, which anybody on this machine may read, and the token gives orders
+                telling.log.write(Level.INFO, telling.state, f"the live page is at {address}")
+                telling.live = address.partition("?")[0]
             telling.say(Level.INFO, f"listening to the vehicle at {self._config.master}")
             for recovered in recover_unfinished(self._config.record):
                 telling.say(Level.WARNING, str(recovered))
@@ -175,12 +185,18 @@ class Service:
             telling.phase = lambda: companion.phase.value
             self._systemd.status(f"flying {mission.name}")
             show = lambda tick: telling.show_flight(tick, companion, meter, self._choice.missions)  # noqa: E731  a tap
+            taps: list[Tap] = [self._systemd, meter, recording, telling.hear, show]
+            ask: Callable[[int], Order | None] = signals
+            live = None
+            if self._feed is not None:
+                live = LiveFlight(self._feed, companion, meter, {"recording": str(file)})
+                taps, ask = [*taps, live], live.operator(signals)
             pace = fly_guarded(
                 companion,
                 telling.links,
                 planning,
-                [self._systemd, meter, recording, telling.hear, show],
-                operator=signals,
+                taps,
+                operator=ask,
                 stop=signals.stop,
                 told=lambda text, trace: telling.say(Level.ERROR, text, traceback=trace),
             )
@@ -193,6 +209,9 @@ class Service:
                 recorder.close()
             except RecordingError as error:
                 telling.say(Level.ERROR, str(error))
-        telling.judged(judge(companion, meter), file)
+        verdict = judge(companion, meter)
+        if live is not None:
+            live.end(verdict)
+        telling.judged(verdict, file)
         self._choice.flown(companion.ground if isinstance(companion.ground, GroundStation) else None)
         return int(left)

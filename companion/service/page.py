@@ -64,6 +64,7 @@ def render(state: Mapping[str, Any], ill: str) -> str:
         f'<p id="gone" class="bad" hidden>The service does not answer any more.</p><div class="cards">{cards}'
         f'<section class="wide"><h2>Notes</h2><ol>{notes}</ol></section></div>'
         f"<footer>{_version(state.get('version'))}up {_duration(state.get('up_s'))} · "
+        f"{_live(state.get('live'))}"
         '<a href="/state.json">state.json</a> · <a href="/health">health</a> · <a href="/ready">ready</a>'
         "</footer></main>"
         f"<script>{SCRIPT}</script></body></html>"
@@ -76,6 +77,13 @@ NOTES = {"error": "bad", "warning": "warn"}
 
 def _version(version: object) -> str:
     return f"version {escape(str(version))}, " if version else ""
+
+
+def _live(address: object) -> str:
+    """A link to the live page; its token, which gives orders, is in the log only."""
+    if not address:
+        return ""
+    return f'<a href="{escape(str(address))}">live page</a> (open the address with its token, which the log has) · '
 
 
 def _worth(key: str, values: Mapping[str, Any] | None) -> bool:

@@ -44,11 +44,12 @@ class Telling:
     last_flight : the verdict on the last one, as `/state.json` has it.
     links : open ones by name.
     board : where the state is put up.
+    live : address of the live page, without its token; empty: there is none.
     """
 
     def __init__(self, log: Log) -> None:
         self.log, self.board = log, Board()
-        self.state, self.flights = "starting", 0
+        self.state, self.flights, self.live = "starting", 0, ""
         self.last_flight: dict[str, Any] | None = None
         self.links: Mapping[str, UdpLink] = {}
         self.phase: Callable[[], str] = lambda: self.state
@@ -116,6 +117,7 @@ class Telling:
                 "last_flight": self.last_flight,
                 "fleet": fleet,
                 "links": links,
+                "live": self.live or None,
                 "routing": asdict(router.counters),
                 "notes": list(self._notes),
             }

@@ -12,8 +12,10 @@ import urllib.request
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs, urlsplit
 
 import pytest
+from websockets.sync.client import connect
 
 from companion.drivers.rerun import rerun
 from logs import schema
@@ -75,7 +77,7 @@ def test_two_services_wait_for_their_vehicles_fly_tell_each_other_and_land_on_si
         folder.mkdir()
         (folder / "hop.yaml").write_text(HOP.replace("  - land", "  - hold: {seconds: 60}\n  - land"))
         others = f'listen: "udpin:127.0.0.1:{fleet[k]}", others: ["udpout:127.0.0.1:{fleet[1 - k]}"]'
-        text = f"master: udpin:127.0.0.1:{masters[k]}\nmission: hop.yaml\nautostart: true\n"
+        text = f"master: udpin:127.0.0.1:{masters[k]}\nmission: hop.yaml\nautostart: true\nlive: 0\n"
         services.append(Running(folder, f"{text}fleet: {{number: {k + 1}, {others}}}"))
     first, second = services
     try:
@@ -90,6 +92,20 @@ def test_two_services_wait_for_their_vehicles_fly_tell_each_other_and_land_on_si
             first.wait(lambda: (first.get("/state.json")[1].get("flight") or {}).get("phase") == "flying")
             first.wait(lambda: "vehicle 2 is heard" in first.said)
             second.wait(lambda: "vehicle 1" in (second.get("/state.json")[1].get("fleet") or {}))
+            address = next(text for text in first.said if "live page is at" in text).rpartition(" ")[2]
+            with urllib.request.urlopen(address, timeout=5) as page:
+                assert b"data-live=" in page.read()
+            bare = first.get("/state.json")[1]["live"]
+            assert address.startswith(f"{bare}?token=")
+            url = urlsplit(address)
+            token = parse_qs(url.query)["token"][0]
+            with urllib.request.urlopen(f"http://127.0.0.1:{first.port}/", timeout=5) as page:
+                assert token not in page.read().decode() + json.dumps(first.get("/state.json")[1])
+            with connect(f"ws://{url.netloc}/live?{url.query}", origin=f"http://{url.netloc}", max_size=None) as live:
+                assert json.loads(live.recv(timeout=5))["header"]["phase"] == "flying"
+                live.send(json.dumps({"order": "hold", "values": [], "token": token}))
+                answers = (json.loads(live.recv(timeout=5)).get("answer") for _ in range(100))
+                assert next(answer for answer in answers if answer)["ok"]
             for service in services:
                 service.process.send_signal(signal.SIGTERM)
             assert [service.process.wait(60) for service in services] == [0, 0]
