@@ -191,6 +191,24 @@ def _truth(flight: Flight) -> None:
     flight.truth = Motion(t, position, velocity)
 
 
+def on_the_map(flight: Flight, latitude: FloatArray, longitude: FloatArray, altitude: FloatArray) -> FloatArray | None:
+    """Places on the earth [deg, deg, m] in the flight's frame (n, 3); None where the vehicle told no such place."""
+    rows = flight.traffic.told(33)
+    rows = rows[(rows["m"]["lat"] != 0) | (rows["m"]["lon"] != 0)]
+    here = flight.flown.at(flight.times(rows))
+    known = np.flatnonzero(np.isfinite(here).all(axis=1))
+    if not len(known):
+        return None
+    k = known[len(known) // 2]  # in mid-flight, when the estimator has settled
+    m = rows["m"][k]
+    first = (m["lat"] / 1e7, m["lon"] / 1e7, m["alt"] / 1e3)
+    columns = (
+        np.insert(column, 0, start) for column, start in zip((latitude, longitude, altitude), first, strict=True)
+    )
+    places: FloatArray = _local(*columns)[1:] + here[k]
+    return places
+
+
 def _told_truth(flight: Flight) -> tuple[FloatArray, FloatArray, FloatArray] | None:
     """Times, positions and velocities of HIL_STATE_QUATERNION, or of ArduPilot's SIM_STATE with whole degrees 1e-7."""
     rows = flight.traffic.told(115)

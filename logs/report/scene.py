@@ -8,7 +8,7 @@ from scipy.interpolate import BSpline
 
 from logs.report import contract as c
 from logs.report.columns import FloatArray, short
-from logs.report.flight import Flight, Motion
+from logs.report.flight import Flight, Motion, on_the_map
 from logs.report.part import Surroundings
 from logs.report.tracking import off_reference
 from logs.schema import PlanReady, ReplanReady, ReplanWanted
@@ -18,6 +18,10 @@ MOST_PLANS = 300
 PLAN_POINTS = 40
 MOST_MOVERS = 400
 MOST_SHAPES = 2000
+NEARBY_M = 200.0
+"""Who never comes so near is not shown."""
+UNTOLD_M = 0.5
+"""Radius of what nobody tells the size of."""
 LOST_S = 2.0
 """A ball not told of for so long is another one when it is told of again."""
 NEAR_M = 1.5
@@ -101,6 +105,39 @@ def curve_of(points: Sequence[float], knots: Sequence[float], count: int) -> Flo
 
 
 def _movers(flight: Flight) -> list[c.Mover]:
+    """What moves: as it told of itself, else as the planner reckoned with it."""
+    return _told_movers(flight) or _reckoned_movers(flight)
+
+
+def _told_movers(flight: Flight) -> list[c.Mover]:
+    """Aircraft near the path by their ADSB_VEHICLE; as great as the planner took them to be."""
+    rows = flight.traffic.told(246)
+    m = rows["m"]
+    known = (m["flags"] & 3) == 3  # ADSB_FLAGS_VALID_COORDS and ADSB_FLAGS_VALID_ALTITUDE
+    rows, m = rows[known], m[known]
+    if not len(rows) or not len(flight.flown.t):
+        return []
+    places = on_the_map(flight, m["lat"] / 1e7, m["lon"] / 1e7, m["altitude"] / 1e3)
+    if places is None:
+        return []
+    wanted = [w.movers for _, _, w in flight.traffic.records.get(ReplanWanted, [])]
+    radii = [movers[k + 6] for movers in wanted for k in range(0, len(movers) - 9, 10)]
+    radius = float(np.median(radii)) if radii else UNTOLD_M
+    t = flight.times(rows)
+    movers = []
+    for address in np.unique(m["ICAO_address"])[:MOST_MOVERS]:
+        its = m["ICAO_address"] == address
+        away = np.linalg.norm(places[its] - flight.flown.at(t[its]), axis=1)
+        if its.sum() < 2 or not (away < NEARBY_M).any():
+            continue
+        name = m["callsign"][its][0].decode("ascii", "replace").strip() or f"{address:06x}"
+        place = places[its]
+        track = short(t[its], place[:, 0], place[:, 1], -place[:, 2], most=5000)
+        movers.append(c.Mover(name, radius, c.Track(*track)))
+    return movers
+
+
+def _reckoned_movers(flight: Flight) -> list[c.Mover]:
     """Balls the planner reckoned with, put together by where each was expected."""
     tracks: list[list[tuple[float, float, float, float, float]]] = []  # t, n, e, d, radius
     velocity: list[tuple[float, float, float]] = []

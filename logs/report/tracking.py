@@ -66,7 +66,11 @@ def path_part(flight: Flight, around: Surroundings) -> Part:
 def clearance_part(t: FloatArray, clearance: FloatArray, expected: float | None, movers: bool) -> Part:
     """How far the hull was from the nearest obstacle."""
     levels = [("contact", 0.0)] + ([("expected", expected)] if expected is not None else [])
-    note = "What moves is taken to be where and as great as the planner reckoned with it." if movers else ""
+    note = (
+        "What moves is taken to be where it told, or else was reckoned to be, and as great as the planner took it."
+        if movers
+        else ""
+    )
     series = lines(t, {"nearest": clearance})
     plot = c.Plot("clearance", "path", "Clearance of the hull", "m", series, tuple(levels), note)
     return Part([plot]) if plot.series else Part()

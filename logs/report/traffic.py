@@ -23,7 +23,7 @@ from wire.dialect import mavlink
 from wire.framing import Framer, Packet
 
 TOLD = (
-    0, 1, 2, 22, 30, 32, 33, 36, 77, 108, 111, 115, 147, 164, 193, 230, 241, 245, 253, 331, 375,
+    0, 1, 2, 22, 30, 32, 33, 36, 77, 108, 111, 115, 147, 164, 193, 230, 241, 245, 246, 253, 331, 375,
 )  # fmt: skip
 """What a vehicle tells that a report shows, by message id."""
 ASKED = (0, 11, 23, 75, 76, 77, 82, 84, 86, 111)

@@ -15,6 +15,7 @@ from logs.recorder import Recorder
 from logs.report import contract as c
 from logs.report.gather import gather
 from tests.recorded.streams import packets
+from wire.dialect import mavlink
 
 TLOGS = Path("tests/data")
 MOST_SECTIONS = ["path", "tracking", "setpoints", "estimator", "actuators", "planning", "link", "parameters"]
@@ -224,3 +225,45 @@ def test_a_recording_without_a_verdict_is_judged_by_its_missions_expectations(fl
     header = gather(recording, replace(around, expected={"tracking_error_p95_m": (0.01, False)})).header
     assert header.ok is False
     assert [check.ok for check in header.checks] == [False]
+
+
+def test_what_tells_where_it_is_on_the_earth_is_shown_where_it_was_in_the_flights_frame(tmp_path):
+    path, encoder = tmp_path / "told.mcap", mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+    with Recorder(path, metadata={}, threaded=False) as recorder:
+        for k in range(200):
+            ms, north = 100 * k, 0.1 * k
+            lat = round((47.0 + north / 111_165.0) * 1e7)  # a degree of latitude is 111 165 m at 47 N, 500 m up
+            ball = round((47.0 + 30.0 / 111_165.0) * 1e7)
+            told = [
+                encoder.heartbeat_encode(2, 12, 0, 0, 3),
+                encoder.local_position_ned_encode(ms, 5.0 + north, -3.0, -2.0, 1.0, 0.0, 0.0),
+                encoder.global_position_int_encode(ms, lat, 85_000_000, 500_000, 2000, 100, 0, 0, 0),
+                encoder.adsb_vehicle_encode(
+                    0xABC, ball, 85_000_000, 1, 503_000 + 10 * k, 0, 0, 0, b"BALL", 14, 0, 3, 0
+                ),
+                encoder.adsb_vehicle_encode(
+                    0xDEF, ball + 1_000_000, 85_000_000, 1, 503_000, 0, 0, 0, b"FAR", 14, 0, 3, 0
+                ),
+            ]
+            for message in told:
+                data = bytes(message.pack(encoder))
+                recorder.datagram("l", "rx", data, log_time_ns=ms * 1_000_000, now_us=ms * 1000, tick=k)
+    (mover,) = gather(Recording.open(path)).scene.movers
+    assert mover.id == "BALL"
+    assert np.asarray(mover.track.n)[[0, -1]] == pytest.approx([35.0, 35.0], abs=0.05)
+    assert np.asarray(mover.track.e)[[0, -1]] == pytest.approx([-3.0, -3.0], abs=0.05)
+    assert np.asarray(mover.track.u)[[0, -1]] == pytest.approx([5.0, 6.99], abs=0.01)
+
+
+def test_aircraft_whose_place_is_not_known_are_not_shown(tmp_path):
+    path, encoder = tmp_path / "unknown.mcap", mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+    with Recorder(path, metadata={}, threaded=False) as recorder:
+        for k in range(20):
+            told = [
+                encoder.heartbeat_encode(2, 12, 0, 0, 3),
+                encoder.adsb_vehicle_encode(0xABC, 470_000_000, 85_000_000, 1, 0, 0, 0, 0, b"B", 14, 0, 3, 0),
+            ]
+            for message in told:
+                data = bytes(message.pack(encoder))
+                recorder.datagram("l", "rx", data, log_time_ns=k * 10**8, now_us=k * 10**5, tick=k)
+    assert gather(Recording.open(path)).scene.movers == ()
