@@ -41,16 +41,6 @@ class Row:
     values: dict[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Column:
-    """A field of a schema: its name, its kind (``int``, ``int64``, ``uint64``, ``float``, ``double``, ``bool``,
-    ``str``, ``bytes``, ``message``), and whether it is a list."""
-
-    name: str
-    kind: str
-    repeated: bool
-
-
 def rows(recording: Recording, messages: Iterable[RecordedMessage]) -> Iterator[Row]:
     """Decode what can be decoded; raw datagrams are passed over.
 
@@ -77,18 +67,6 @@ def sender(topic: str) -> tuple[int | None, int | None]:
     if len(parts) == 5 and parts[1] == "mavlink" and parts[2].isdecimal() and parts[3].isdecimal():
         return int(parts[2]), int(parts[3])
     return None, None
-
-
-def columns(recording: Recording, message: RecordedMessage) -> tuple[Column, ...]:
-    """The fields of a message's schema."""
-    descriptor: Descriptor = recording.decode(message).DESCRIPTOR
-    octets = descriptor.full_name.startswith(f"{PACKAGE}.")
-    return tuple(
-        Column(field.name, "int", True)
-        if octets and field.type == FieldDescriptor.TYPE_BYTES
-        else Column(field.name, _KINDS.get(field.type, "int"), field.is_repeated)
-        for field in descriptor.fields
-    )
 
 
 def plain(message: Any) -> dict[str, Any]:
@@ -123,20 +101,6 @@ def flat(values: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
         else:
             yield f"{prefix}{name}", value
 
-
-_KINDS: dict[int, str] = {
-    FieldDescriptor.TYPE_INT64: "int64",
-    FieldDescriptor.TYPE_SINT64: "int64",
-    FieldDescriptor.TYPE_SFIXED64: "int64",
-    FieldDescriptor.TYPE_UINT64: "uint64",
-    FieldDescriptor.TYPE_FIXED64: "uint64",
-    FieldDescriptor.TYPE_FLOAT: "float",
-    FieldDescriptor.TYPE_DOUBLE: "double",
-    FieldDescriptor.TYPE_BOOL: "bool",
-    FieldDescriptor.TYPE_STRING: "str",
-    FieldDescriptor.TYPE_BYTES: "bytes",
-    FieldDescriptor.TYPE_MESSAGE: "message",
-}
 
 _Reader = Callable[[Any], Any]
 _READERS: dict[Any, list[tuple[str, _Reader]]] = {}

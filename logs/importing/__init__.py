@@ -13,8 +13,6 @@ from pathlib import Path
 
 from logs.errors import RecordingError
 
-ENDINGS = (".tlog", ".ulg", ".bin")
-
 
 @dataclass(slots=True)
 class Imported:
