@@ -24,10 +24,10 @@ from planner import PointCloud
 from planner import worlds as planned
 from planner.voxels import VoxelGrid
 
-BODY_US = 40_000
-FIX_US = 200_000
+BODY_US = 35_000
+FIX_US = 190_000
 SCENE_US = 1_000_000
-"""Shortest times between two of a kind: 25, 5 and 1 a second."""
+"""Shortest times between two of a kind: 25, 5 and 1 a second, for ticks of 20 ms that may come a little early."""
 MOVER_LIFETIME_S = 3.0
 PLANS = (PlanReady, ReplanReady)
 NOT_PLACED = (Phase.CONNECTING, Phase.PREPARING)
