@@ -84,8 +84,7 @@ def _extremes(rows: Rows) -> NDArray[np.intp]:
     for column in numeric:
         blocks = column[:whole].reshape(-1, _BLOCK)
         found += [first + blocks.argmin(axis=1), first + blocks.argmax(axis=1)]
-    kept = np.unique(np.concatenate(found))
-    return kept if len(kept) <= len(rows) // 2 else kept[::2]
+    return np.unique(np.concatenate(found))  # 31 of 64 rows at most
 
 
 def short(t: FloatArray, *columns: FloatArray, most: int = MOST_POINTS) -> tuple[FloatArray, ...]:

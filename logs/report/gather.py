@@ -19,7 +19,7 @@ from logs.report.estimator import estimator_part
 from logs.report.flight import Flight, flight_of
 from logs.report.link import link_part, losses
 from logs.report.parameters import Values, parameters_of, parameters_part
-from logs.report.part import Part, Surroundings
+from logs.report.part import Part, Surroundings, TableRows
 from logs.report.planning import planning_part
 from logs.report.scene import scene_of
 from logs.report.setpoints import setpoints_part
@@ -68,6 +68,9 @@ def gather(recording: Recording, around: Surroundings = NOWHERE, against: Record
     tables = [table for part in parts.values() for table in part.tables]
     if left_out:
         tables.insert(0, c.Table("verdict", "Left out for want of data", ("section", "why"), left_out))
+    in_part: TableRows = [[name, kept] for name, kept in flight.traffic.kept_in_part()]
+    if in_part:
+        tables.insert(0, c.Table("verdict", "Too long to be kept whole", ("message", "kept"), in_part))
     if len(flight.truth.t) == 0 and flight.source:
         tables.insert(0, _source_table(flight))
     return c.Report(

@@ -103,6 +103,11 @@ class Traffic:
     def truths(self) -> NDArray[np.float64]:
         return np.frombuffer(self._truths, np.float64).reshape(-1, 22)
 
+    def kept_in_part(self) -> list[tuple[str, int]]:
+        """Messages of which only so many were kept, for there are too many: their names, and how many."""
+        thinned = [(number, stream) for (_, number), stream in self.streams.items() if stream.thinned]
+        return [(mavlink.mavlink_map[number].msgname, len(stream)) for number, stream in thinned]
+
     def told(self, message_id: int) -> Rows:
         """The vehicle's messages of a kind."""
         stream = None if self.vehicle is None else self.streams.get((self.vehicle, message_id))

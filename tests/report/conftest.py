@@ -32,10 +32,13 @@ def flown(tmp_path_factory: pytest.TempPathFactory) -> Flown:
         if now_us == Vehicle.TICK_US and logs:
             logs.pop().close()  # the twin that warmed the kernels up
         if not logs:
-            own = FlightLog(folder / f"own{ticks[0]}", self.config, {}, started_unix_s=0.0, threaded=False)
+            own = FlightLog(
+                folder / f"own{ticks[0]}", self.config, {}, started_unix_s=0.0, threaded=False, sensors=True
+            )
             logs.append(own)
         ticks[0] += 1
         logs[0].tick(now_us, inputs, outputs, self.truth if now_us % 20_000 == 0 else None)
+        logs[0].look(self, now_us)
         return outputs
 
     told = io.StringIO()

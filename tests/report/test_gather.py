@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from companion.cli.app import app
 from companion.cli.report import surroundings_of, write_report
+from logs import schema
 from logs.reader import Recording
 from logs.recorder import Recorder
 from logs.report import contract as c
@@ -118,16 +119,32 @@ def test_the_timeline_has_phases_modes_commands_and_their_answers_in_order(compa
 
 
 def test_a_vehicles_own_recording_shows_rotors_and_whether_its_filter_believes_itself_rightly(vehicles):
-    assert {s.label for p in vehicles.plots if p.id == "rotors" for s in p.series} == {
-        f"rotor {k}" for k in (1, 2, 3, 4)
-    }
+    shown = {series.label for plot in vehicles.plots if plot.id == "rotors" for series in plot.series}
+    assert shown == {f"rotor {k}" for k in (1, 2, 3, 4)}
     rows = table_of(vehicles, "Normalised innovations squared")
-    for name, dof in (("velocity", 3), ("horizontal position", 2), ("height", 1)):
+    for name, dof in (("gps velocity", 3), ("gps position", 2), ("baro", 1), ("mag", 3)):
         assert rows[name][0] == dof
-        assert rows[name][1] == pytest.approx(dof, rel=0.4)  # the mean of chi^2 is its degrees of freedom
-        assert rows[name][3] > 80.0
+        assert rows[name][1] == pytest.approx(dof, rel=0.3)  # the mean of chi^2 is its degrees of freedom
+        assert rows[name][3] > 85.0
     assert left_out(vehicles).keys() == {"planning"}
     assert vehicles.header.ok is None
+
+
+def test_test_ratios_and_the_gate_give_the_nis_that_the_estimator_itself_tells(flown, vehicles, monkeypatch):
+    monkeypatch.setattr(
+        "logs.report.traffic._UNSEEN", (schema.EstimatorBegin, schema.EstimatorInputs, schema.EstimatorState)
+    )
+    guessed = gather(Recording.open(flown.vehicles))
+    told = table_of(vehicles, "Normalised innovations squared")
+    rows = table_of(guessed, "Normalised innovations squared")
+    names = {"velocity": "gps velocity", "horizontal position": "gps position", "height": "baro", "magnetometer": "mag"}
+    for name, known in names.items():
+        assert rows[name][:1] == told[known][:1]
+        assert rows[name][1] == pytest.approx(told[known][1], rel=0.35)  # of every measurement, and of five a second
+    nis = next(series for plot in guessed.plots if plot.id == "nis-velocity" for series in plot.series)
+    every = np.asarray(next(s for plot in vehicles.plots if plot.id == "nis-gps-velocity" for s in plot.series).v)
+    found = [np.abs(every - value).min() < 1e-4 * max(1.0, value) for value in np.asarray(nis.v)]
+    assert np.mean(found) > 0.95  # the same numbers, through a float32
 
 
 def test_both_sides_of_one_flight_tell_the_same_motion(companions, vehicles):
@@ -176,6 +193,16 @@ def test_gaps_in_the_sequence_are_counted_and_shown_when_they_were(flown, tmp_pa
     shown = series_of(report, "link-gaps", "l 1/1")
     assert shown.v[-1] == lost
     assert shown.t[1] == pytest.approx(16.1, abs=0.1)  # tick 4000 of 4 ms, and what came before the first
+
+
+def test_a_recording_too_long_to_be_kept_whole_keeps_its_extremes_and_says_so(flown, companions, monkeypatch):
+    monkeypatch.setattr("logs.report.columns.MOST_ROWS", 600)
+    part = gather(Recording.open(flown.companions))
+    assert "ATTITUDE" in table_of(part, "Too long to be kept whole")
+    for label in ("roll", "pitch"):
+        kept, whole = (np.asarray(series_of(report, "attitude", label).v) for report in (part, companions))
+        assert len(kept) < len(whole)
+        assert (np.nanmin(kept), np.nanmax(kept)) == (np.nanmin(whole), np.nanmax(whole))
 
 
 def test_parameters_are_held_against_another_recording(flown):
