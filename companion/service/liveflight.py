@@ -15,17 +15,19 @@ from companion.core import Companion
 from companion.drivers.tick import Tick
 from companion.geofence import Area
 from companion.mission import Mission, Obstacle
-from companion.phases import OVER
+from companion.phases import OVER, Phase
 from companion.seam import Level, Note, Order, PlanReady, Reference, ReplanReady
 from companion.service.feed import NOTHING, Answer, Asked, Feed, Way
 from companion.service.live import SOURCE
-from companion.verdict import FlightMeter, Verdict
+from companion.verdict import FlightMeter, Verdict, checks
 from logs.report import contract
 from planner import PointCloud, Trajectory, VoxelGrid
 
 EVERY_US = 50_000
 WAY_POINTS, MOST_CELLS = 61, 20_000
 NAN = math.nan
+NOT_PLACED = (Phase.CONNECTING, Phase.PREPARING)
+"""The mission frame is fixed when they are left."""
 
 
 class LiveFlight:
@@ -109,7 +111,7 @@ class LiveFlight:
         fresh = self._reference if now_us - self._referred_us <= 2 * companion.TICK_US else None
         rn, re, ru = (NAN, NAN, NAN) if fresh is None else _up(fresh.position_m.tolist())
         n = e = u = level = climb = roll = pitch = yaw = NAN
-        if said.position_us is not None:
+        if said.position_us is not None and self._phase not in NOT_PLACED:
             n, e, u = _up((said.position_n - companion.origin_n).tolist())
             v = said.velocity_n.tolist()
             level, climb = math.hypot(v[0], v[1]), -v[2]
@@ -134,7 +136,14 @@ class LiveFlight:
     def end(self, verdict: Verdict) -> None:
         """The flight is over and judged."""
         failure = verdict.failure or "; ".join(verdict.failed_expectations)
-        self._feed.header(ok=verdict.ok, phase=verdict.phase, failure=failure, duration_s=verdict.duration_s)
+        found = checks(verdict, self._companion.mission.expect)
+        self._feed.header(
+            ok=verdict.ok,
+            phase=verdict.phase,
+            failure=failure,
+            duration_s=verdict.duration_s,
+            checks=tuple(contract.Check(c.name, c.value, c.expected, c.ok) for c in found),
+        )
         self._feed.end()
 
 

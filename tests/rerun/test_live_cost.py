@@ -1,5 +1,6 @@
 """What the live page costs the flight loop, and that a flight with it is the flight without it."""
 
+import math
 import time
 from pathlib import Path
 
@@ -53,6 +54,10 @@ def test_twenty_moments_a_second_are_put_up_with_path_plan_phases_and_verdict(re
     assert {len(row) for row in rows} == {1 + len(COLUMNS)}
     assert whole["header"]["ok"] is True
     assert whole["header"]["phase"] == "done"
+    assert [check["name"] for check in whole["header"]["checks"]][:2] == ["phase", "tracking_error_p95_m"]
+    assert all(check["ok"] for check in whole["header"]["checks"])
+    north_east = [row[1:3] for row in rows if row[1] == row[1]]
+    assert math.dist(north_east[0], (1.0, 10.0)) < 0.2  # the path begins where the mission does, not at the origin
     assert len(whole["scene"]["plans"]) == 1
     assert len(whole["scene"]["obstacles"]) == 2
     phases = [event["text"].partition(" (")[0] for event in whole["events"] if event["kind"] == "phase"]
