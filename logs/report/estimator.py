@@ -109,7 +109,7 @@ def _nis(part: Part, measured: list[tuple[str, int, FloatArray, FloatArray]]) ->
             continue
         inside = float(((finite >= low) & (finite <= high)).mean())
         rows.append([name, dof, round(float(finite.mean()), 3), f"{low:.3g} to {high:.3g}", round(100 * inside, 1)])
-        levels = (("95 % above", low), ("95 % below", high))
+        levels = (("2.5 %", low), ("97.5 %", high))
         freedom = f"{dof} degree{'s' if dof > 1 else ''} of freedom (mean {dof})"
         note = f"{100 * inside:.0f} % inside the middle 95 % of chi² with {freedom}."
         id, series = f"nis-{name.replace(' ', '-')}", lines(t, {"NIS": nis}, "dots")
@@ -144,7 +144,7 @@ def _nees(flight: Flight, part: Part) -> None:
     c21 = rows["m"]["pose_covariance"].astype(np.float64)
     P = np.empty((len(rows), 3, 3))  # upper triangle of a 6 x 6, row by row: xx xy xz . . . yy yz . . . zz
     for (i, k), at in {(0, 0): 0, (0, 1): 1, (0, 2): 2, (1, 1): 6, (1, 2): 7, (2, 2): 11}.items():
-        P[:, i, k] = P[:, k, i] = c21[:, at]
+        P[:, i, k] = P[:, k, i] = c21[:, at] if i == k else np.nan_to_num(c21[:, at])  # NaN: not told
     position = np.stack([rows["m"][name].astype(np.float64) for name in "xyz"], axis=1)
     if flight.origin_n is not None:
         position = position - flight.origin_n
@@ -162,7 +162,7 @@ def _nees(flight: Flight, part: Part) -> None:
     low, high = float(chdtri(3, 0.975)), float(chdtri(3, 0.025))
     inside = 100 * float(((nees >= low) & (nees <= high)).mean())
     note = f"{inside:.0f} % inside the middle 95 % of chi² with 3 degrees of freedom; taken from where it stood."
-    levels = (("95 % above", low), ("95 % below", high))
+    levels = (("2.5 %", low), ("97.5 %", high))
     plot = c.Plot("nees", "estimator", "NEES, position", "", lines(t[good], {"NEES": nees}), levels, note)
     part.plots.append(plot)
 

@@ -49,12 +49,13 @@ def planning_part(flight: Flight, around: Surroundings) -> Part:
         why: TableRows = [[kind, reason, count] for (kind, reason), count in reasons.most_common(20)]
         if why:
             part.tables.append(c.Table("planning", "Why", ("kind", "reason", "answers"), why))
-        levels = {kind: k for k, kind in enumerate(("none", "backup", "switch", "keep"))}
         times = np.array([t for t, _ in replans])
-        decided = np.array([float(levels.get(r.kind, np.nan)) for _, r in replans])
-        note = "0 none, 1 backup, 2 switch, 3 keep."
-        plot = c.Plot("decisions", "planning", "Decisions", "", lines(times, {"kind": decided}, "dots"), (), note)
-        part.plots.append(plot)
+        decided = {
+            kind: np.array([float(level) if r.kind == kind else np.nan for _, r in replans])
+            for level, kind in enumerate(MEANING)
+        }
+        series = lines(times, decided, "dots")
+        part.plots.append(c.Plot("decisions", "planning", "Decisions, each kind on a line of its own", "", series))
         spare = np.array([r.clearance if abs(r.clearance) < 1e6 else np.nan for _, r in replans])
         series = lines(times, {"spare": spare})
         if series:

@@ -130,6 +130,13 @@ def test_a_vehicles_own_recording_shows_rotors_and_whether_its_filter_believes_i
     assert vehicles.header.ok is None
 
 
+def test_the_positions_error_is_weighed_with_the_covariance_that_is_told(companions):
+    nees = np.asarray(series_of(companions, "nees", "NEES").v)
+    off = np.asarray(series_of(companions, "estimate-error", "horizontal").v)
+    assert np.nanmin(nees) >= 0.0
+    assert 0.05 < np.nanmedian(nees) / (np.nanmedian(off) ** 2 / 0.0018) < 20.0  # a variance of about 0.0018 m^2
+
+
 def test_test_ratios_and_the_gate_give_the_nis_that_the_estimator_itself_tells(flown, vehicles, monkeypatch):
     monkeypatch.setattr(
         "logs.report.traffic._UNSEEN", (schema.EstimatorBegin, schema.EstimatorInputs, schema.EstimatorState)
