@@ -31,7 +31,6 @@ BLOCK, WIDTH = 25, 15
 GPS, BARO, MAG = 0.0, 1.0, 2.0
 NAMES = (*(parameter.name for parameter in PARAMETERS), "SIM_MAG_INCL")
 """Parameters that the estimator goes by; the field's inclination is known to all."""
-SIGMAS = 15
 
 
 class SensorLog:

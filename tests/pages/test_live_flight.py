@@ -46,7 +46,7 @@ def test_the_page_follows_a_flight_at_ten_hertz_and_its_land_button_lands_it(dem
     page.until("window.companionPage?.ready && companionPage.link.state === 'connected'")
     page.until("document.querySelector('.badge').textContent === 'flying'", timeout=40)
     before, began_s = page.js("companionPage.link.messages"), time.monotonic()
-    time.sleep(2.0)
+    time.sleep(1.5)
     messages, seconds = page.js("companionPage.link.messages") - before, time.monotonic() - began_s
     assert messages / seconds >= 10
     assert page.js(f"{PAGE}.scene.path.length") > 100

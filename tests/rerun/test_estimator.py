@@ -60,12 +60,12 @@ def flown(folder: Path, sensors: bool, autopilot="px4", faults=FAULTS) -> Path:
 
 
 @pytest.fixture(scope="module")
-def recording(tmp_path_factory) -> Path:
+def sensors(tmp_path_factory) -> Path:
     return flown(tmp_path_factory.mktemp("with"), sensors=True)
 
 
-def test_the_same_sensors_give_the_same_estimate_to_the_bit_through_faults_a_changed_parameter_and_a_reboot(recording):
-    opened = Recording.open(recording)
+def test_the_same_sensors_give_the_same_estimate_to_the_bit_through_faults_a_changed_parameter_and_a_reboot(sensors):
+    opened = Recording.open(sensors)
     begins = [
         schema.decode(schema.EstimatorBegin, m.data)
         for m in opened.messages(topics=(schema.TOPICS[schema.EstimatorBegin],))
@@ -84,8 +84,8 @@ def test_the_same_sensors_give_the_same_estimate_to_the_bit_through_faults_a_cha
     assert {"gps_position", "gps_velocity", "baro", "mag"} <= set(last[-1].sensors.split(","))
 
 
-def test_another_noise_makes_another_estimate_and_the_list_says_which_fields(recording, capsys):
-    assert rerun_log(recording, as_json=True, sets=["EKF2_GPS_P_NOISE=1.5"], estimator=True) == 0
+def test_another_noise_makes_another_estimate_and_the_list_says_which_fields(sensors, capsys):
+    assert rerun_log(sensors, as_json=True, sets=["EKF2_GPS_P_NOISE=1.5"], estimator=True) == 0
     result = json.loads(capsys.readouterr().out)
     assert result["ok"]
     assert result["set"] == {"EKF2_GPS_P_NOISE": 1.5}
@@ -94,14 +94,14 @@ def test_another_noise_makes_another_estimate_and_the_list_says_which_fields(rec
     assert listed["EstimatorState.nis"]["times"] > 100
 
 
-def test_a_rerun_of_the_estimator_says_so_in_words_and_in_its_exit_code(recording, capsys):
-    assert rerun_log(recording, as_json=False, sets=[], estimator=True) == 0
+def test_a_rerun_of_the_estimator_says_so_in_words_and_in_its_exit_code(sensors, capsys):
+    assert rerun_log(sensors, as_json=False, sets=[], estimator=True) == 0
     assert "outputs the same" in capsys.readouterr().out
 
 
-def test_a_recording_without_sensors_and_a_parameter_that_is_none_are_one_line(recording, tmp_path):
+def test_a_recording_without_sensors_and_a_parameter_that_is_none_are_one_line(sensors, tmp_path):
     plain = flown(tmp_path, sensors=False, autopilot="ardupilot", faults=())
-    assert plain.stat().st_size < recording.stat().st_size
+    assert plain.stat().st_size < sensors.stat().st_size
     with pytest.raises(EstimatorRerunError, match="holds no sensors, expected"):
         rerun_log(plain, as_json=False, sets=[], estimator=True)
     for text, told in (
@@ -111,4 +111,4 @@ def test_a_recording_without_sensors_and_a_parameter_that_is_none_are_one_line(r
         ("limits.speed=1", "no such parameter"),
     ):
         with pytest.raises(EstimatorRerunError, match=told):
-            rerun_log(recording, as_json=False, sets=[text], estimator=True)
+            rerun_log(sensors, as_json=False, sets=[text], estimator=True)

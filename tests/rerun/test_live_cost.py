@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from companion.cli.simulate import simulate_mission
 from companion.drivers.recording import to_input
 from companion.drivers.rerun import fresh_companion
 from companion.drivers.tick import Tick
@@ -18,15 +17,9 @@ from logs.table import ticks
 from wire.datagram import Datagram
 
 
-@pytest.fixture(scope="module")
-def recording(tmp_path_factory) -> Recording:
-    file = tmp_path_factory.mktemp("recordings") / "flight.mcap"
-    assert simulate_mission(Path("missions/l_shape.yaml"), 1, file, "px4", as_json=True) == 0
-    return Recording.open(file)
-
-
-def watched(recording: Recording) -> tuple[Feed, float, float]:
+def watched(path: Path) -> tuple[Feed, float, float]:
     """The flight again with the live page's tap: its feed, what the tap cost [s], and how long the flight was [s]."""
+    recording = Recording.open(path)
     companion, feed, cost_s = fresh_companion(recording), Feed(), 0.0
     meter = FlightMeter(companion)
     live = LiveFlight(feed, companion, meter)

@@ -18,13 +18,6 @@ from companion.errors import MissionError, RerunError
 from logs.reader import Recording
 
 
-@pytest.fixture(scope="module")
-def recording(tmp_path_factory) -> Path:
-    file = tmp_path_factory.mktemp("recordings") / "flight.mcap"
-    assert simulate_mission(Path("missions/l_shape.yaml"), 1, file, "px4", as_json=False) == 0
-    return file
-
-
 def test_the_same_seed_gives_a_byte_identical_recording_and_another_seed_does_not(recording, tmp_path, capsys):
     digests = []
     for seed in (1, 2):

@@ -236,7 +236,7 @@ def test_a_reader_that_takes_nothing_holds_up_neither_the_writer_nor_the_end(fee
         )
         deaf.sendall("\r\n".join(lines).encode())
         slowest = 0.0
-        for k in range(20_000):
+        for k in range(8000):
             began = time.perf_counter()
             feed.sample(row(k / 20, **values))
             slowest = max(slowest, time.perf_counter() - began)
