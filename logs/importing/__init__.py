@@ -8,6 +8,8 @@ What these hold beside packets becomes protobuf channels with the names that the
 ``/ardupilot/<NAME>``. There is nothing in them to replay or to run again.
 """
 
+import os
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -40,4 +42,13 @@ def import_log(source: Path, target: Path, force: bool = False) -> Imported:
         raise RecordingError(source, f"found the ending {source.suffix or 'none'!r}, expected .tlog, .ulg or .BIN")
     if not source.is_file():
         raise RecordingError(source, "no such file")
-    return reader(source, target, force)
+    # The readers print what they think of a damaged file, byte by byte; what is to be told is in `Imported`. (One of
+    # pymavlink's is in C: what it says still comes out on stderr.)
+    with open(os.devnull, "w") as nothing, redirect_stdout(nothing), redirect_stderr(nothing):
+        return reader(source, target, force)
+
+
+def in_a_line(error: Exception) -> str:
+    """What a reader of others says of a file, which may hold any of the file's bytes, as one short line."""
+    text = "".join(c if c.isprintable() else " " for c in str(error))
+    return " ".join(text.split())[:200] or type(error).__name__

@@ -4,12 +4,13 @@ Every kind of message becomes ``/ardupilot/<NAME>``, with the log's own names; v
 gives (degrees, metres: its multipliers applied). Times are Unix time where the log has GPS time, from the boot on else.
 """
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from logs.errors import RecordingError
 from logs.export import unfinished
-from logs.importing import Imported
+from logs.importing import Imported, in_a_line
 from logs.importing.foreign import Foreign
 
 _STRINGS, _FLOATS, _DOUBLES = "nNZ", "fg", "dcCeEL"
@@ -29,27 +30,29 @@ def import_dataflash(source: Path, target: Path, force: bool = False) -> Importe
     with open(source, "rb") as file:
         if file.read(2) != b"\xa3\x95":
             raise RecordingError(source, "it does not begin as a .BIN does: no ArduPilot log")
-    try:
-        reader = DFReader_binary(str(source), zero_time_base=False)
-    except Exception as error:  # it raises what its parsing happens to raise
-        raise RecordingError(source, f"pymavlink cannot read it: {error or type(error).__name__}") from error
     done = Imported(target)
+    reader = DFReader_binary.__new__(DFReader_binary)  # so that what it opens can be closed if its beginning fails
     try:
+        try:
+            reader.__init__(str(source), zero_time_base=False)
+        except Exception as error:  # it raises what its parsing happens to raise
+            raise RecordingError(source, f"pymavlink cannot read it: {in_a_line(error)}") from error
         about = {"of": source.name, "format": "dataflash"}
         with unfinished(target, force) as temporary, Foreign(temporary, "ardupilot", about) as foreign:
             _copy(reader, foreign, done)
             if not done.messages:
                 raise RecordingError(source, "there is nothing in it")
     finally:
-        reader.data_map.close()
-        reader.filehandle.close()
+        for name in ("filehandle", "data_map"):
+            with suppress(AttributeError, BufferError):  # what it has not opened, and what it still holds on to
+                getattr(reader, name).close()
     return done
 
 
 def _copy(reader: Any, foreign: Foreign, done: Imported) -> None:
     declared: dict[str, str] = {}  # name -> the letters it was declared with
-    unlike = 0
-    while (message := reader.recv_msg()) is not None:
+    unlike, time_s = 0, 0.0
+    while (message := _next(reader, done)) is not None:
         name = message.get_type()
         letters = message.fmt.format
         if name not in declared:
@@ -60,11 +63,20 @@ def _copy(reader: Any, foreign: Foreign, done: Imported) -> None:
             unlike += 1
             continue
         values = [_value(getattr(message, c), letter) for c, letter in zip(message.fmt.columns, letters, strict=False)]
-        time_ns = max(0, round(message._timestamp * 1e6)) * 1000
-        foreign.add(f"/ardupilot/{name}", done.messages, time_ns, values)
+        time_s = getattr(message, "_timestamp", time_s)  # before the first time there is none
+        foreign.add(f"/ardupilot/{name}", done.messages, round(time_s * 1e6) * 1000, values)
         done.messages += 1
     if unlike:
         done.told.append(f"{unlike} messages whose kind the log declares a second time, otherwise")
+
+
+def _next(reader: Any, done: Imported) -> Any:
+    """The next message; None at the end, or where pymavlink does not know any further."""
+    try:
+        return reader.recv_msg()
+    except Exception as error:  # it raises what its parsing happens to raise
+        done.told.append(f"pymavlink cannot read it to its end: {in_a_line(error)}")
+        return None
 
 
 def _kind(letter: str) -> str:

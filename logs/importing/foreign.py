@@ -21,6 +21,7 @@ KINDS: dict[str, "_Field.Type.ValueType"] = {
     "str": _Field.TYPE_STRING,
 }
 """What a field may be."""
+_LATEST_NS = (1 << 63) - 1
 
 
 class Foreign:
@@ -66,6 +67,7 @@ class Foreign:
     def add(self, topic: str, number: int, time_ns: int, values: Sequence[Any]) -> None:
         """One message, its values in the order of the fields."""
         channel, kind, names = self._topics[topic]
+        time_ns = min(max(0, time_ns), _LATEST_NS)  # whatever a damaged log says
         data = kind(**dict(zip(names, values, strict=True))).SerializeToString(deterministic=True)
         self._container.add_message(channel, number, time_ns, time_ns, data)
 

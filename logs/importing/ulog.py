@@ -12,7 +12,7 @@ from typing import Any
 
 from logs.errors import RecordingError
 from logs.export import unfinished
-from logs.importing import Imported
+from logs.importing import Imported, in_a_line
 from logs.importing.foreign import Foreign
 
 _ELEMENT = re.compile(r"(.+)\[(\d+)\]")
@@ -35,7 +35,7 @@ def import_ulog(source: Path, target: Path, force: bool = False) -> Imported:
         with open(source, "rb") as file:
             log = ULog(file, disable_str_exceptions=True)
     except Exception as error:  # it raises what its parsing happens to raise, TypeError for a wrong beginning
-        raise RecordingError(source, f"pyulog cannot read it: {error or type(error).__name__}") from error
+        raise RecordingError(source, f"pyulog cannot read it: {in_a_line(error)}") from error
     done = Imported(target)
     lost_ms = sum(dropout.duration for dropout in log.dropouts)
     about = {"of": source.name, "format": "ulog", "dropouts": str(len(log.dropouts)), "dropouts_ms": str(lost_ms)}
@@ -47,10 +47,10 @@ def import_ulog(source: Path, target: Path, force: bool = False) -> Imported:
         sources = [
             _parameters(log, foreign),
             _texts(log, foreign),
-            *(_topic(data, order, foreign) for order, data in enumerate(log.data_list)),
+            *(_topic(data, order, foreign) for order, data in enumerate(log.data_list) if "timestamp" in data.data),
         ]
         for time_us, _, topic, values in heapq.merge(*sources, key=lambda entry: entry[0]):
-            foreign.add(topic, done.messages, max(0, time_us) * 1000, values)
+            foreign.add(topic, done.messages, time_us * 1000, values)
             done.messages += 1
         if not done.messages:
             raise RecordingError(source, "there is nothing in it")
@@ -62,9 +62,14 @@ def _parameters(log: Any, foreign: Foreign) -> Iterator[_Entry]:
     foreign.declare(topic, "Parameter", [("name", "str", False), ("value", "double", False)])
     start = int(log.start_timestamp)
     for name in sorted(log.initial_parameters):
-        yield start, 0, topic, [name, float(log.initial_parameters[name])]
+        yield from _parameter(start, topic, name, log.initial_parameters[name])
     for time_us, name, value in sorted(log.changed_parameters, key=lambda entry: int(entry[0])):
-        yield int(time_us), 0, topic, [name, float(value)]
+        yield from _parameter(int(time_us), topic, name, value)
+
+
+def _parameter(time_us: int, topic: str, name: str, value: Any) -> Iterator[_Entry]:
+    if isinstance(value, int | float):  # bytes, where its type is damaged
+        yield time_us, 0, topic, [name, float(value)]
 
 
 def _texts(log: Any, foreign: Foreign) -> Iterator[_Entry]:

@@ -1,5 +1,6 @@
 """Logs of others as recordings: .tlog by our own reader, .ulg by pyulog, .BIN by pymavlink."""
 
+import random
 import struct
 import sys
 from pathlib import Path
@@ -169,3 +170,32 @@ def test_an_ardupilot_log_becomes_channels_with_its_own_names(tmp_path: Path) ->
     assert second.log_time_ns - first.log_time_ns == 100_000_000
     assert found["/ardupilot/PARM"][0].values["Name"] == "ATC_RAT_RLL_P"
     assert found["/ardupilot/MSG"][0].values["Message"] == "ArduCopter V4.6"
+
+
+@pytest.mark.parametrize("ending", [".tlog", ".ulg", ".bin"])
+def test_whatever_bytes_are_damaged_there_is_a_recording_or_one_line(
+    ending: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    if ending == ".ulg":
+        pytest.importorskip("pyulog")
+    whole = {".tlog": TLOG.read_bytes()[:5_000], ".ulg": ulog(), ".bin": dataflash()}[ending]
+    generator = random.Random(3)
+    source, target = tmp_path / f"x{ending}", tmp_path / "x.mcap"
+    read, refused = 0, list[str]()
+    for _ in range(80):
+        data = bytearray(whole)
+        for _ in range(generator.choice((1, 3, 20))):
+            data[generator.randrange(len(data))] = generator.randrange(256)
+        source.write_bytes(data[: generator.randrange(len(data) // 2, len(data) + 1)])
+        try:
+            import_log(source, target, force=True)
+        except RecordingError as error:
+            refused.append(str(error))
+            continue
+        recording = Recording.open(target)
+        assert recording.complete
+        assert list(recording.messages())
+        read += 1
+    assert read > 20
+    assert not any("\n" in text for text in refused)
+    assert capfd.readouterr().out == ""  # one JSON object is all that may stand there
