@@ -63,7 +63,8 @@ def gather(recording: Recording, around: Surroundings = NOWHERE, against: Record
     }
     nearest = clearance_part(aloft.t, clearance, expected[0] if expected else None, bool(scene.movers))
     parts["path"].plots += nearest.plots
-    header = _header(recording, flight, around, clearance)
+    known = np.empty(0) if scene.movers else clearance  # how great what moves was, only a simulator knows
+    header = _header(recording, flight, around, known)
     left_out = [[name, part.missing] for name, part in parts.items() if part.missing]
     tables = [table for part in parts.values() for table in part.tables]
     if left_out:
@@ -105,7 +106,7 @@ def _vehicles_own(metadata: Mapping[str, Mapping[str, str]]) -> dict[str, str] |
 def _header(recording: Recording, flight: Flight, around: Surroundings, clearance: FloatArray) -> c.Header:
     told = _outcome(recording.metadata)
     measured = _measured(flight, clearance)
-    measured |= {name: told[name] for name in measured if isinstance(told.get(name), float)}
+    measured |= {name: told[name] for name in (*measured, "min_clearance_m") if isinstance(told.get(name), float)}
     phase, failure = _end(flight)
     checks = _checks(told, measured, around)
     ok: bool | None = told.get("ok") if isinstance(told.get("ok"), bool) else None
@@ -217,7 +218,7 @@ def _facts(recording: Recording, flight: Flight, measured: dict[str, float]) -> 
         "min_clearance_m": ("least clearance", "m"),
         "setpoint_gap_p99_ms": ("setpoint gap p99", "ms"),
     }
-    facts += [(words[name][0], f"{measured[name]:.3g} {words[name][1]}") for name in words if name in measured]
+    facts += [(words[name][0], f"{measured[name]:.4g} {words[name][1]}") for name in words if name in measured]
     facts += [("messages", traffic.messages), ("written by", recording.library)]
     if len(recording.paths) > 1:
         facts.append(("parts", len(recording.paths)))
