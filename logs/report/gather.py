@@ -6,6 +6,7 @@ data is left out, and the verdict's table says why.
 
 import datetime
 import json
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -29,6 +30,7 @@ from logs.report.traffic import read
 from wire.dialect import mavlink
 
 _UNIX_NS = 10**17  # log times beyond this are times of day
+STEP_M = 0.1
 NOWHERE = Surroundings()
 
 
@@ -152,7 +154,7 @@ def _measured(flight: Flight, clearance: FloatArray) -> dict[str, float]:
         p50, p95 = percentiles(error, [50, 95])
         figures |= {"tracking_error_p50_m": p50, "tracking_error_p95_m": p95}
         figures["tracking_error_max_m"] = float(np.nanmax(error))
-        figures["path_length_m"] = float(np.linalg.norm(np.diff(motion.position, axis=0), axis=1).sum())
+        figures["path_length_m"] = _length(motion.position)
     if np.isfinite(clearance).any():
         figures["min_clearance_m"] = float(np.nanmin(clearance))
     sent = [rows for _, rows in flight.traffic.asked(84) if len(rows) > 1]
@@ -161,6 +163,16 @@ def _measured(flight: Flight, clearance: FloatArray) -> dict[str, float]:
         p99 = percentiles(gaps_ms, [99])[0]
         figures |= {"setpoint_gap_p99_ms": p99, "setpoint_gap_max_ms": float(gaps_ms.max())}
     return {name: float(value) for name, value in figures.items()}
+
+
+def _length(position_m: FloatArray) -> float:
+    """Of a path through (n, 3) places [m], in steps of at least `STEP_M`, so that noise does not add to it."""
+    total, here = 0.0, position_m[0].tolist()
+    for there in position_m.tolist():
+        step = math.dist(here, there)
+        if step >= STEP_M:
+            total, here = total + step, there
+    return total + math.dist(here, position_m[-1])
 
 
 def _checks(told: dict[str, Any], measured: dict[str, float], around: Surroundings) -> list[c.Check]:

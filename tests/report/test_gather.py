@@ -256,6 +256,7 @@ def test_a_recording_without_a_verdict_is_judged_by_its_missions_expectations(fl
     header = gather(recording, around).header
     assert (header.ok, header.phase) == (True, "done")
     assert [check.ok for check in header.checks] == [True] * 4
+    assert float(dict(header.facts)["path"].split()[0]) == pytest.approx(flown.verdict["path_length_m"], abs=0.05)
     header = gather(recording, replace(around, expected={"tracking_error_p95_m": (0.01, False)})).header
     assert header.ok is False
     assert [check.ok for check in header.checks] == [False]
