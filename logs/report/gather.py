@@ -34,6 +34,7 @@ STEP_M = 0.1
 NOWHERE = Surroundings()
 
 
+@np.errstate(all="ignore")  # a peer may tell any number, NaN and infinities among them
 def gather(recording: Recording, around: Surroundings = NOWHERE, against: Recording | None = None) -> c.Report:
     """Everything a page shows of a recording.
 

@@ -10,6 +10,10 @@ from logs.report import contract as c
 from logs.report.columns import FloatArray, pause_s, percentiles, short, with_gaps
 
 TableRows = list[list[str | float | None]]
+BEYOND = 1e30
+"""No value is so great; a page's float32 could not hold it."""
+MOST_SECONDS = 200_000
+"""A flight is no longer than two days."""
 Style = Literal["line", "step", "dots"]
 
 
@@ -57,6 +61,7 @@ def lines(
 ) -> tuple[c.Series, ...]:
     """Series over common times, with gaps where the stream paused, short enough for the page."""
     named = {name: np.asarray(column, dtype=np.float64) for name, column in columns.items()}
+    named = {name: np.where(np.abs(column) < BEYOND, column, np.nan) for name, column in named.items()}
     named = {name: column for name, column in named.items() if np.isfinite(column).any()}
     if not len(t) or not named:
         return ()
@@ -95,6 +100,7 @@ def each_second(
     counts: dict[int, tuple[int, int]], which: int, first_s: int, last_s: int
 ) -> tuple[FloatArray, FloatArray]:
     """Counts a second, with zeros where nothing came."""
-    seconds = np.arange(first_s, last_s + 1)
+    wild = last_s - first_s > MOST_SECONDS  # times that cannot be: only the seconds in which something came
+    seconds = np.array(sorted(counts)) if wild else np.arange(first_s, last_s + 1)
     values = np.array([counts.get(int(s), (0, 0))[which] for s in seconds], dtype=np.float64)
     return seconds.astype(np.float64), values

@@ -5,7 +5,7 @@ import numpy as np
 from logs.report import contract as c
 from logs.report.columns import percentiles
 from logs.report.flight import Flight
-from logs.report.part import Part, Surroundings, TableRows, histogram, lines
+from logs.report.part import MOST_SECONDS, Part, Surroundings, TableRows, histogram, lines
 
 NAMES = {82: "SET_ATTITUDE_TARGET", 84: "SET_POSITION_TARGET_LOCAL_NED", 86: "SET_POSITION_TARGET_GLOBAL_INT"}
 FAILSAFE_S = 0.5
@@ -29,8 +29,8 @@ def setpoints_part(flight: Flight, around: Surroundings) -> Part:
     whose = f"{NAMES[number]} from {who[2]}/{who[3]}, as they {'left' if who[1] == 'tx' else 'arrived'}."
     gap = lines(t[1:], {"gap": gaps_ms}, "dots", np.inf)
     part.plots.append(c.Plot("setpoint-gap", "setpoints", "Time since the one before", "ms", gap, tuple(levels), whose))
-    counts, edges = np.histogram(t, bins=np.arange(np.floor(t[0]), np.ceil(t[-1]) + 1.0))
-    if len(counts) > 2:
+    if 3.0 < t[-1] - t[0] < MOST_SECONDS:
+        counts, edges = np.histogram(t, bins=np.arange(np.floor(t[0]), np.ceil(t[-1]) + 1.0))
         rate = lines(edges[1:-2] + 0.5, {"setpoints": counts[1:-1].astype(float)}, "step", np.inf)
         part.plots.append(c.Plot("setpoint-rate", "setpoints", "Setpoints a second", "1/s", rate))
     jitter = histogram(
