@@ -4,7 +4,7 @@
               nothing) on either side: a thing that stands by itself, not a piece of wall behind something
     track     a Kalman filter of place and velocity over ground, of constant velocity and white acceleration; across the
               ray a ring is known as finely as its sectors are wide, along it much better
-    mover     a track seen in `CONFIRMED` scans whose speed is surely not nothing
+    mover     a track seen in `CONFIRMED` scans that has gone `MOVED` and whose speed is surely not nothing
 
     x = [north east v_north v_east],  F = [I dt I; 0 I],  Q = q [dt^3/3 dt^2/2; dt^2/2 dt] (x) I,  H = [I 0]
 
@@ -42,8 +42,8 @@ FASTEST = 3.0
 """1 sigma of a speed that is not known yet [m/s]."""
 GATE = 13.8
 """Of the squared Mahalanobis distance, two dimensions: 0.1 % of what belongs lies outside."""
-CONFIRMED, SURELY = 4, 2.0
-"""Scans, and of its own sigma a speed."""
+CONFIRMED, SURELY, MOVED = 5, 2.5, 0.4
+"""Scans, of its own sigma a speed, and how far from where it was seen first [m]: the end of a wall must not do."""
 SLOWEST = 0.4
 """What is slower stands [m/s]."""
 DOUBTED_US, LOST_US = 350_000, 1_000_000
@@ -59,6 +59,7 @@ class _Thing:
     at_us: int  # of x
     seen_us: int
     since_us: int  # when it was seen first
+    began: FloatArray  # (2,) where
     seen: int = 1
     moves: bool = False
     wake: list[FloatArray] = field(default_factory=list)  # (2,) where it was seen before it was taken to move
@@ -97,7 +98,8 @@ class _Thing:
             self.moves = self.moves and speed > 0.5 * SLOWEST
             return
         sigma = math.sqrt(float(v @ self.P[2:, 2:] @ v)) / speed
-        self.moves = self.seen >= CONFIRMED and speed > max(SLOWEST, SURELY * sigma)
+        away = float(np.hypot(*(self.x[:2] - self.began)))
+        self.moves = self.seen >= CONFIRMED and speed > max(SLOWEST, SURELY * sigma) and away > MOVED
 
 
 class Following:
@@ -141,7 +143,8 @@ class Following:
                 self._number = self._number % 0xFFFFFF + 1
                 P = np.zeros((4, 4))
                 P[:2, :2], P[2, 2], P[3, 3] = R, FASTEST**2, FASTEST**2
-                self._things.append(_Thing(self._number, np.array([*place, 0.0, 0.0]), P, z, at_us, at_us, at_us))
+                x = np.array([*place, 0.0, 0.0])
+                self._things.append(_Thing(self._number, x, P, z, at_us, at_us, at_us, place))
         kept = []
         for thing in self._things:
             address = SEEN + thing.number
