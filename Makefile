@@ -16,9 +16,9 @@ help:            ## show this
 demo: $(STAMP)   ## fly the L-shaped wall with the bundled vehicle, over UDP, recorded
 	$(BIN)/companion demo
 
-test: $(STAMP)   ## every test, but for those of `make soak`: in JOBS processes, then what flies in real time by itself
+test: $(STAMP)   ## every test, but for those of `make soak`: what needs no clock, then what flies in real time (which mostly waits)
 	$(BIN)/python -m pytest -q -m "not soak and not udp" -n $(JOBS) --dist loadgroup
-	$(BIN)/python -m pytest -q -m "udp and not soak"
+	$(BIN)/python -m pytest -q -m "udp and not soak" -n $(JOBS) --dist loadfile
 
 soak: $(STAMP)   ## tests that are judged by the clock, or long: want a machine of their own
 	$(BIN)/python -m pytest -q -m soak
