@@ -6,7 +6,8 @@
 Nobody else gets in: the port is the loopback's alone; a Host that is not this address is refused (a name that somebody
 made point here, DNS rebinding), and so is an Origin that is not the page's own (a foreign page in the same browser);
 the token is drawn anew each time and compared in constant time. Every reader has threads of its own and none in the
-flight loop's; a slow one is given less (`feed`), and one that takes nothing is hung up on.
+flight loop's; a slow one is given less (`feed`), and one that takes nothing is hung up on. Whoever calls without a
+word to say takes one of a few places for a few seconds, never a thread or a descriptor more.
 """
 
 import contextlib
@@ -27,7 +28,9 @@ from urllib.parse import parse_qs, urlsplit
 
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
+from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
+from websockets.server import ServerProtocol
 from websockets.sync.server import Server, ServerConnection, serve
 
 from companion.errors import LinkError
@@ -39,6 +42,10 @@ HOST = "127.0.0.1"
 PERIOD_S, ALIVE_S = 0.05, 1.0
 """Time between two messages; and without anything to say, between two empty ones."""
 MOST_READERS = 8
+MOST_CALLERS = 32
+"""Connections at once: readers, pages being fetched, and whoever only holds a line open."""
+OPEN_S = 5.0
+"""To say what is wanted."""
 MOST_BYTES = 4096  # of an order
 CLOSE_S = 1.0
 MOST_UNSENT = 1 << 18
@@ -79,9 +86,10 @@ def served_live(port: int, feed: Feed, token: str = "") -> Iterator[str]:
             HOST,
             port,
             process_request=door.judge,
+            create_connection=_Caller,
             compression=None,  # costs more than the loopback
             server_header=None,
-            open_timeout=5.0,
+            open_timeout=OPEN_S,
             close_timeout=CLOSE_S,
             max_size=MOST_BYTES,
             max_queue=8,
@@ -104,6 +112,15 @@ def _hosts(server: Server) -> tuple[str, str]:
     return f"{HOST}:{port}", f"localhost:{port}"
 
 
+class _Caller(ServerConnection):
+    """A connection; not one more than `MOST_CALLERS`, which the server then hangs up on."""
+
+    def __init__(self, sock: socket.socket, protocol: ServerProtocol, server: Server, **more: Any) -> None:
+        if len(server.handler_threads) > MOST_CALLERS:  # this one's among them
+            raise ConnectionRefusedError
+        super().__init__(sock, protocol, server, **more)
+
+
 class _Door:
     """Who comes in, and what is said to them.
 
@@ -120,12 +137,16 @@ class _Door:
 
     def judge(self, connection: ServerConnection, request: Request) -> Response | None:
         """What a request is answered with; None: it may talk."""
-        url = urlsplit(request.path)
+        try:
+            url = urlsplit(request.path)
+            token = parse_qs(url.query, max_num_fields=8).get("token", [""])[0]
+        except ValueError:
+            return _said(HTTPStatus.BAD_REQUEST, "that is no address\n")
         if request.headers.get_all("Host") not in [[host] for host in self.hosts]:
             return _said(HTTPStatus.FORBIDDEN, "this page is for this machine only\n")
         if url.path not in ("/", "/live"):
             return _said(HTTPStatus.NOT_FOUND, "there is the page at / and nothing else\n")
-        if not self._knows(parse_qs(url.query, max_num_fields=8).get("token", [""])[0]):
+        if not self._knows(token):
             return _said(HTTPStatus.FORBIDDEN, "the token is missing or wrong: open the address that was printed\n")
         if url.path == "/":
             page = live_page(f"/live?token={self.token}", self.token, "live")
@@ -140,7 +161,11 @@ class _Door:
         """One reader, from its coming to its going."""
         answers: deque[Answer] = deque(maxlen=16)
         with self._lock:
-            self._readers.add(connection)
+            full = len(self._readers) >= MOST_READERS  # several came at once
+            if not full:
+                self._readers.add(connection)
+        if full:
+            return connection.close(CloseCode.TRY_AGAIN_LATER, f"{MOST_READERS} pages look on already")
         connection.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, MOST_UNSENT)
         teller = threading.Thread(target=self._tell, args=(connection, answers), name="live page", daemon=True)
         teller.start()
@@ -154,6 +179,7 @@ class _Door:
         finally:
             with self._lock:
                 self._readers.discard(connection)
+        return None
 
     def _tell(self, connection: ServerConnection, answers: deque[Answer]) -> None:
         """Send what is new until it goes."""

@@ -7,6 +7,7 @@ import json
 import math
 import re
 import socket
+import threading
 import time
 from collections.abc import Iterator
 from urllib.parse import parse_qs, urlsplit
@@ -19,6 +20,7 @@ from websockets.sync.client import ClientConnection, connect
 from companion.cli.app import with_live_port
 from companion.errors import LinkError
 from companion.service import feed as feeds
+from companion.service import live
 from companion.service.feed import Answer, Asked, Feed, Seen, Way
 from companion.service.live import served_live
 from logs.report import contract
@@ -222,6 +224,59 @@ def test_readers_beyond_the_eighth_are_refused_and_a_place_is_free_again_after_o
         except InvalidStatus:
             assert time.monotonic() < end
             time.sleep(0.05)
+
+
+@pytest.mark.parametrize("path", ["//[", "/?" + "a=1&" * 9, "/live?" + "token=x&" * 20])
+def test_an_address_that_is_none_is_refused_as_any_other(served: str, path: str):
+    assert get(served, path).status == 400
+
+
+def test_many_that_come_at_once_are_no_more_readers_than_one_after_the_other(served: str, monkeypatch):
+    parse, meet = live.parse_qs, threading.Barrier(12, timeout=5)
+
+    def all_at_once(*arguments, **more):
+        meet.wait()
+        return parse(*arguments, **more)
+
+    monkeypatch.setattr(live, "parse_qs", all_at_once)
+    told: list[bool] = []
+
+    def look() -> None:
+        try:
+            with reader(served) as connection:
+                told.append("version" in connection.recv(timeout=5))
+                end.wait(5)
+        except (ConnectionClosed, InvalidStatus):
+            told.append(False)
+
+    end = threading.Event()
+    threads = [threading.Thread(target=look) for _ in range(12)]
+    for thread in threads:
+        thread.start()
+    until = time.monotonic() + 10
+    while len(told) < 12 and time.monotonic() < until:
+        time.sleep(0.01)
+    end.set()
+    for thread in threads:
+        thread.join()
+    assert sorted(told) == [False] * 4 + [True] * 8
+
+
+def test_lines_held_open_without_a_word_take_few_threads_and_the_page_comes_back(served: str, monkeypatch):
+    host, token = parts(served)
+    before = threading.active_count()
+    with contextlib.ExitStack() as stack:
+        idle = [stack.enter_context(socket.create_connection(host.split(":"))) for _ in range(200)]
+        idle[-1].settimeout(5)
+        assert idle[-1].recv(1) == b""  # hung up on
+        assert threading.active_count() - before <= 3 * live.MOST_CALLERS
+    end = time.monotonic() + 5
+    while True:
+        with contextlib.suppress(OSError, http.client.HTTPException):
+            if get(served, f"/?token={token}").status == 200:
+                return
+        assert time.monotonic() < end
+        time.sleep(0.05)
 
 
 def test_a_reader_that_takes_nothing_holds_up_neither_the_writer_nor_the_end(feed: Feed):
