@@ -1,7 +1,10 @@
-"""`companion report`: a recording as one page, and as pictures."""
+"""`companion report`: a recording, or another program's log, as one page, and as pictures."""
 
 import math
+import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,7 @@ from companion.drivers.recording import MISSION_ATTACHMENT
 from companion.errors import CompanionError
 from companion.mission import Mission
 from companion.missionfile import parse_mission
+from logs.importing import IMPORTED, import_log
 from logs.reader import Recording
 from logs.report import contract as c
 from logs.report.gather import NOWHERE, gather
@@ -72,15 +76,26 @@ def write_report(
     ------
     RecordingError    A recording cannot be read, or the page not written.
     """
-    recording = Recording.open(path)
-    other = None if against is None else Recording.open(against)
-    report = gather(recording, surroundings_of(recording), other)
+    with ExitStack() as stack:
+        recording = stack.enter_context(opened(path))
+        other = None if against is None else stack.enter_context(opened(against))
+        report = gather(recording, surroundings_of(recording), other)
     size = write_page(report.to_json(), target)
     if png is None:
         return report, size, []
     from logs.report.plots import write_pictures  # matplotlib takes half a second to import
 
     return report, size, write_pictures(report, png)
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Recording]:
+    """A recording, or what a .tlog, .ulg or .BIN becomes when it is imported, for as long as this lasts."""
+    if path.suffix.lower() not in IMPORTED:
+        yield Recording.open(path)
+        return
+    with tempfile.TemporaryDirectory(prefix="companion-report-") as folder:
+        yield Recording.open(import_log(path, Path(folder) / path.name).path)  # the same name: it stands on the page
 
 
 def surroundings_of(recording: Recording) -> Surroundings:

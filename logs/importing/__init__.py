@@ -15,6 +15,9 @@ from pathlib import Path
 
 from logs.errors import RecordingError
 
+IMPORTED = (".tlog", ".ulg", ".bin")
+"""Endings, in small letters."""
+
 
 @dataclass(slots=True)
 class Imported:

@@ -11,6 +11,8 @@ from typer.testing import CliRunner
 from companion.cli.app import app
 from companion.cli.report import surroundings_of, write_report
 from logs import schema
+from logs.errors import RecordingError
+from logs.importing import import_log
 from logs.reader import Recording
 from logs.recorder import Recorder
 from logs.report import contract as c
@@ -234,6 +236,25 @@ def test_the_command_writes_page_and_pictures_and_says_so(flown, tmp_path):
     assert pictures == sorted(Path(p).name for p in told["pictures"])
     assert {"scene.png", "tracking.png", "timeline.png"} <= set(pictures)
     assert all(path.read_bytes()[:4] == b"\x89PNG" for path in folder.iterdir())
+
+
+def test_another_programs_log_is_told_as_its_import_is_and_held_against_a_recording(flown, tmp_path):
+    log, page = TLOGS / "px4-offboard-65s-71s.tlog", tmp_path / "r.html"
+    report, size, _ = write_report(log, page, against=flown.companions)
+    whole = gather(Recording.open(import_log(log, tmp_path / log.name).path), against=Recording.open(flown.companions))
+    assert json.dumps(report.to_json()) == json.dumps(whole.to_json())
+    assert dict(report.header.facts)["recording"] == log.name
+    assert size == page.stat().st_size
+
+
+@pytest.mark.parametrize("name", ["a.tlog", "a.BIN", "a.mcap", "a.txt"])
+def test_what_is_no_log_is_one_line_and_no_page(tmp_path, name):
+    (tmp_path / name).write_bytes(bytes(range(256)) * 8)
+    with pytest.raises(RecordingError) as caught:
+        write_report(tmp_path / name, tmp_path / "r.html")
+    assert str(caught.value).startswith(f"{tmp_path / name}: ")
+    assert "\n" not in str(caught.value)
+    assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
 def test_the_page_is_never_written_over_the_recording(flown):
