@@ -20,6 +20,7 @@ from typing import Any
 from fastcrc import crc16
 
 from logs.reader import RecordedMessage
+from logs.wire_replay import is_autopilot
 from wire.datagram import Address
 from wire.dialect import mavlink
 from wire.framing import Framer, Packet
@@ -83,7 +84,7 @@ class Answering:
         self._next_us = 0
         self._told_us = -TOLD_US
         self._gather(messages, link)
-        if mission and mavlink.MAV_MISSION_TYPE_MISSION not in self.missions:
+        if mission and not self.missions.get(mavlink.MAV_MISSION_TYPE_MISSION):
             self.missions[mavlink.MAV_MISSION_TYPE_MISSION] = list(mission)
         self.parameters: Mapping[tuple[int, int], tuple[bytes, ...]] = {
             who: tuple(sorted(told.parameters, key=lambda name: told.parameters[name][0]))
@@ -152,8 +153,8 @@ class Answering:
                 if index == 0xFFFF:
                     index = known[0] if known is not None else 0x10000 + len(told.parameters)
                 told.parameters[name] = index, value, kind
-        elif packet.message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT and packet.component_id == 1:
-            self._main = self._main or who
+        elif packet.message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT and self._main is None:
+            self._main = who if is_autopilot(packet, self._decoder) else None
         if packet.message_id in mavlink.mavlink_map and len(told.messages) < 4096:
             told.messages[packet.message_id] = packet
 
@@ -163,6 +164,8 @@ class Answering:
         kind = message.mission_type
         if packet.message_id == mavlink.MAVLINK_MSG_ID_MISSION_COUNT:
             transfers[kind] = _Transfer(message.count)
+            if not message.count:
+                self.missions[kind] = []
             return
         transfer = transfers.get(kind)
         if transfer is None or message.seq >= transfer.count:
@@ -238,7 +241,8 @@ class Answering:
         result = mavlink.MAV_RESULT_DENIED
         more: list[Any] = []
         if question.command == mavlink.MAV_CMD_REQUEST_MESSAGE:
-            wanted = self._told[who].messages.get(int(question.param1) if question.param1 >= 0 else -1)
+            number = question.param1  # a float: any, NaN and infinities too; one with a fraction names no message
+            wanted = self._told[who].messages.get(number)
             if wanted is not None:
                 result, more = mavlink.MAV_RESULT_ACCEPTED, [(wanted.message_id, wanted.payload)]
         system, component = question.asker

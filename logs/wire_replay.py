@@ -7,13 +7,14 @@ This is the pacing, without a socket or a clock; `logs.replay_driver` sends.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
 from logs.secrets import carries_key
 from logs.selection import Selection, selected
 from wire.dialect import mavlink
-from wire.framing import Framer
+from wire.framing import Framer, Packet
 
 LEAST_GAP_S = 0.001
 """Between the end of a recording and its beginning again [s], at least."""
@@ -69,15 +70,18 @@ def _links(recording: Recording, first: bool) -> tuple[tuple[str, ...], tuple[st
         if message.channel.direction != "rx" or link in found:
             continue
         heard[link] = None
-        for packet in framer.packets(message.data):
-            if packet.message_id != mavlink.MAVLINK_MSG_ID_HEARTBEAT:
-                continue
-            heartbeat = decoder.decode(bytearray(packet.raw))
-            if packet.component_id == 1 and heartbeat.autopilot != mavlink.MAV_AUTOPILOT_INVALID:
-                found[link] = None
+        if any(is_autopilot(packet, decoder) for packet in framer.packets(message.data)):
+            found[link] = None
         if first and found:
             break
     return tuple(found), tuple(heard)
+
+
+def is_autopilot(packet: Packet, decoder: Any) -> bool:
+    """Whether a packet is an autopilot's HEARTBEAT; `decoder` is a MAVLink of pymavlink's."""
+    if packet.message_id != mavlink.MAVLINK_MSG_ID_HEARTBEAT or packet.component_id != 1:
+        return False
+    return bool(decoder.decode(bytearray(packet.raw)).autopilot != mavlink.MAV_AUTOPILOT_INVALID)
 
 
 def vehicle_traffic(recording: Recording, link: str, wanted: Selection | None = None) -> Iterator[RecordedMessage]:

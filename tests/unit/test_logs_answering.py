@@ -3,6 +3,7 @@
 import math
 import struct
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -138,6 +139,29 @@ def test_a_mission_handed_over_is_told_where_none_crossed_the_wire(recording: Re
     answering = Answering(only, "autopilot", [item(0, 5)])
     [found] = ask(answering, m.MAVLink_mission_request_int_message(1, 1, 0))
     assert found.x == 5
+
+
+def test_a_mission_that_was_cleared_later_is_not_told(recording: Recording) -> None:
+    with_no_item = pack(m.MAVLink_mission_count_message(1, 1, 0), 1, 191)
+    *_, last = recording.messages()
+    sent = next(message.channel for message in recording.messages() if message.channel.direction == "tx")
+    cleared = [*recording.messages(), replace(last, channel=sent, data=with_no_item)]
+    [count] = ask(Answering(cleared, "autopilot"), m.MAVLink_mission_request_list_message(1, 1))
+    assert count.count == 0
+
+
+def test_who_is_no_autopilot_does_not_answer_in_its_place(recording: Recording) -> None:
+    first, *_ = recording.messages()
+    radio = replace(first, data=pack(m.MAVLink_heartbeat_message(6, m.MAV_AUTOPILOT_INVALID, 0, 0, 4, 3), 51, 1))
+    everything = Answering([radio, *recording.messages()], "autopilot")
+    everybody = m.MAVLink_param_request_read_message(0, 0, b"BAT_LOW_THR", -1)
+    assert [found.param_id for found in ask(everything, everybody)] == ["BAT_LOW_THR"]
+
+
+@pytest.mark.parametrize("number", [math.inf, -math.inf, math.nan, -1.0, 242.5, 3e38])
+def test_a_message_whose_number_is_none_is_denied(answering: Answering, number: float) -> None:
+    [ack, *_] = ask(answering, command(m.MAV_CMD_REQUEST_MESSAGE, number))
+    assert ack.result == m.MAV_RESULT_DENIED
 
 
 def test_a_message_asked_for_is_the_last_that_was_sent_of_it(answering: Answering) -> None:
