@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 PEERS := .peers
 MAVPROXY := $(CURDIR)/$(PEERS)/mavproxy
-PACKAGES := companion fakevehicle planner logs wire
+PACKAGES := companion fakevehicle planner logs wire campaigns
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .PHONY: help demo test soak test-clients lint check format bench bench-peers pin readers web clean
