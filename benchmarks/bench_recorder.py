@@ -15,7 +15,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +26,7 @@ from pymavlink.dialects.v20 import all as mavlink
 
 from companion.drivers.recording import socket_losses
 from logs import schema
+from logs.errors import RecordingError
 from logs.reader import Recording
 from logs.recorder import Recorder
 from wire.endpoint import Endpoint
@@ -156,7 +157,8 @@ def ours(path: Path, link: UdpLink) -> tuple[Keep, Callable[[], Any]]:
         )
 
     def close() -> tuple[int, int]:
-        recorder.close()
+        with suppress(RecordingError):  # what it could not keep is counted
+            recorder.close()
         counters = recorder.counters
         with path.open("rb") as file:
             summary = make_reader(file).get_summary()

@@ -16,9 +16,9 @@ MAX_RAW_CHANNELS = 4096
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """What a channel's messages are counted as, and of which link."""
+    """What a channel's messages are counted as, and of which link; "made" are mirrors and the recorder's own."""
 
-    family: Literal["rx", "tx", "decoded", "messages", "aside"]
+    family: Literal["rx", "tx", "decoded", "messages", "made"]
     link: str = ""
 
 
@@ -79,7 +79,7 @@ class Channels:
             schema_id = self._schema(schema.schema_name(kind), schema.DESCRIPTOR_SET)
             channel = self._container.add_channel(topic, "protobuf", schema_id, {})
             self._records[topic, kind] = channel
-            self.kinds[channel] = Kind("aside" if kind in schema.ASIDE else "messages")
+            self.kinds[channel] = Kind("made" if kind is schema.Loss else "messages")
         return channel
 
     def mirror(self, topic: str) -> int:
@@ -88,7 +88,7 @@ class Channels:
         if channel is None:
             schema_id = self._schema(f"{foxglove.PACKAGE}.{SCHEMAS[topic]}", foxglove.DESCRIPTOR_SET)
             channel = self._mirrors[topic] = self._container.add_channel(topic, "protobuf", schema_id, {})
-            self.kinds[channel] = Kind("aside")
+            self.kinds[channel] = Kind("made")
         return channel
 
     def _schema(self, name: str, descriptor_set: bytes) -> int:

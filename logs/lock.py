@@ -4,22 +4,21 @@ from typing import BinaryIO
 
 try:
     import fcntl
-except ImportError:  # a system without it cannot tell; there only `companion log recover` recovers, by hand
+except ImportError:  # a system without it cannot tell
     fcntl = None  # type: ignore[assignment]
 
 
-def lock(file: BinaryIO) -> bool:
-    """Take the lock of an open file, without waiting; False when another has it.
+def lock(file: BinaryIO) -> bool | None:
+    """Take the lock of an open file, without waiting; False when another has it, None where there are no locks.
 
-    It is given back when the file is closed or the process ends. Where the file system knows no locks it is as if
-    nobody had it.
+    It is given back when the file is closed or the process ends.
     """
     if fcntl is None:
-        return True
+        return None
     try:
         fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
     except OSError:
-        return True
+        return None
     return True

@@ -7,6 +7,7 @@ is missing between it and the one before.
 
 import os
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -122,6 +123,12 @@ class Parts:
         if self._file is not None:
             self._file.close()
         self._file, self.container = None, None
+
+    def withdraw(self) -> None:
+        """Take the newest part away again, which is not the first."""
+        self.close()
+        with suppress(OSError):
+            self.paths.pop().unlink()
 
     def disk(self) -> tuple[int, int]:
         """Bytes free for us, and in all, on the disk of the recording."""

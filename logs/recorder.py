@@ -32,22 +32,26 @@ from logs.container import Attachment, Direction
 from logs.errors import RecordingError
 from logs.mirrors import Mirror
 from logs.parts import MOST_PARTS, Gap, Parts, Room, Rotation
-from logs.scribe import Item, Scribe
+from logs.scribe import Item, Scribe, TableItem
 from wire.datagram import Address
 
-FLUSH_S = 0.5
-"""Longest time between a message and its reaching the file [s]: what a crash can cost."""
+FLUSH_S = 0.4
+"""The file is flushed this often [s]. With a tick, `BATCH_S` and the writing a crash costs less than half a second."""
 BATCH_S = 0.05
 """The writer thread wakes this often [s]; waking for every message would cost the flight loop its turn."""
 DECODE_BACKLOG = 20_000
 """Items waiting for the writer thread above which packets are no longer decoded, only kept raw (and counted)."""
 MAX_BACKLOG = 200_000
 """Items waiting above which new ones are dropped, and counted as such."""
+MAX_BACKLOG_BYTES = 64 * 1024 * 1024
+"""Bytes of datagrams waiting above which it is the same: a datagram may be of 64 KiB."""
 LOSSES_S = 1.0
 """Losses are recorded this often at most [s]."""
 RETRY_S = 5.0
 """A new part is tried this often while the disk is full [s]."""
 MAX_NOTICES = 100
+MAX_TABLES = 100
+"""Tables kept for the next part while nothing can be written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +101,8 @@ class Recorder:
 
     Raises
     ------
-    RecordingError    Here: the file exists or cannot be made. From `close`: the disk failed on the way; what went in
-        is readable. The calls between never raise for the disk: the flight goes on, `failure` says why.
+    RecordingError    Here: the file exists or cannot be made. From `close`: the disk failed on the way or was too slow;
+        what went in is readable. The calls between never raise for the disk: the flight goes on, `failure` says why.
     """
 
     def __init__(
@@ -124,6 +128,9 @@ class Recorder:
         self._last = (0, 0, 0)  # log time, now and tick of the newest item
         self._gap: Gap | None = None  # nothing is being written
         self._broken = False  # nor will be
+        self._where = "in it"  # what is missing once something is
+        self._tables: deque[TableItem] = deque(maxlen=MAX_TABLES)  # that wait for a part
+        self._resumed_at: int | None = None  # entries missing before the gap that this part ended, if it did
         self._whole_to_ns = 0  # everything up to this log time is on the disk
         self._more_losses = losses or (lambda: {})
         self._told_losses: dict[str, int] = {}
@@ -132,7 +139,9 @@ class Recorder:
         self._warned = False
         self._flush_at = self._losses_at = self._retry_at = self._part_ends_at = -1  # [ns] of `_now_ns`
         self._queue: deque[Item] = deque()
-        self._overflowed = 0  # counted by the caller, `_dropped_raw` by the writer: no two threads add to one number
+        # Counted by the caller; `_dropped_raw` and `_taken_bytes` by the writer: no two threads add to one number.
+        self._overflowed = self._put_bytes = 0
+        self._taken_bytes = 0
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
         if threaded:
@@ -192,7 +201,7 @@ class Recorder:
             rx=dict(scribe.rx),
             tx=dict(scribe.tx),
             decoded=scribe.decoded,
-            messages=scribe.messages + scribe.aside,
+            messages=scribe.messages + scribe.made,
             dropped_decoded=scribe.dropped_decoded,
             dropped_raw=self._dropped_raw + self._overflowed,
             masked=scribe.masked,
@@ -224,14 +233,19 @@ class Recorder:
         if self._thread is not None:
             self._wake.set()
             self._thread.join()
-        if self._gap is not None and not self._broken:
-            self._retry_at = -1
-            self._retry()
-        self._attempt(self._finish)
-        self._parts.close()
+        try:
+            if self._gap is not None and not self._broken and self._parts.number < MOST_PARTS:
+                self._begin("the recording ended")  # there is room for what is missing to be told, if for anything
+            self._attempt(self._finish)
+        except Exception as error:
+            if self._thread is None:
+                raise
+            self._break(error)
+        finally:
+            self._parts.close()
         if self.failure:
             missing = self.counters.dropped_raw
-            where = "at its end" if self._gap is not None or self._broken else "between its parts"
+            where = "at its end" if self._gap is not None else self._where
             raise RecordingError(self.path, f"{self.failure}; {missing} entries are missing {where}")
 
     def __enter__(self) -> Self:
@@ -254,10 +268,17 @@ class Recorder:
             self._write(item, True)
             if len(item) > 2:
                 self._look()
-        elif len(self._queue) >= MAX_BACKLOG:
+            return
+        full = len(self._queue) >= MAX_BACKLOG or self._put_bytes - self._taken_bytes >= MAX_BACKLOG_BYTES
+        if full and len(item) > 2:
+            if not self._overflowed:
+                self._notices.append("the disk is too slow: not everything is recorded")
+                self.failure = self.failure or "the disk was too slow"
             self._overflowed += 1
-        else:
-            self._queue.append(item)
+            return
+        if len(item) == 7:
+            self._put_bytes += len(item[5])
+        self._queue.append(item)
 
     def _run(self) -> None:
         """The writer thread: take what is there, write it, sleep."""
@@ -266,11 +287,21 @@ class Recorder:
             closing = self._wake.wait(BATCH_S)
             while queue:
                 for _ in range(min(256, len(queue))):
-                    write(queue.popleft(), len(queue) < DECODE_BACKLOG and self._decodes)
-                self._look()
-            self._look()
+                    item = queue.popleft()
+                    write(item, len(queue) < DECODE_BACKLOG and self._decodes)
+                    if len(item) == 7:
+                        self._taken_bytes += len(item[5])
+                self._look_safely()
+            self._look_safely()
             if closing:
                 return
+
+    def _look_safely(self) -> None:
+        """`_look`, so that the thread does not die without a word."""
+        try:
+            self._look()
+        except Exception as error:
+            self._break(error)
 
     # ---- the writing side ---------------------------------------------------------------------------------------
 
@@ -279,11 +310,11 @@ class Recorder:
         return time.monotonic_ns() if self._threaded else self._last[0]
 
     def _write(self, item: Item, decode: bool) -> None:
-        """Put one item into the present part; between two parts it is counted as missing."""
+        """Put one item into the present part; between two parts it is counted as missing, and a table waits."""
         if len(item) > 2:
             self._last = item[:3]
         if self._gap is not None:
-            self._dropped_raw += 1
+            self._miss(item)
             return
         try:
             if len(item) == 7:
@@ -294,13 +325,26 @@ class Recorder:
                 self._scribe.mirror(item, decode)
             else:
                 self._container.add_metadata(*item)
+                self._resumed_at = None
         except OSError as error:
             self._abandon(error)
+            if len(item) == 2:
+                self._miss(item)
         except Exception as error:
             # Whatever it is, a writer thread must not die without a word: `close` tells it.
             if self._thread is None:
                 raise
+            self._miss(item)
             self._break(error)
+
+    def _miss(self, item: Item) -> None:
+        """An item that cannot be written now."""
+        if len(item) == 2:
+            self._tables.append(item)
+        elif len(item) == 4:
+            self._scribe.dropped_decoded += 1
+        else:
+            self._dropped_raw += 1
 
     def _look(self) -> None:
         """What has its time: flushing, losses, the disk's room, the end of a part."""
@@ -382,19 +426,34 @@ class Recorder:
                 self._open_gap(_reason(error))
             return
         self._scribe.begin(self._container)
+        self._resumed_at = None if self._gap is None or self._tables else self._gap.missing
         self._gap = None
-        self._attempt(lambda: self._scribe.stand(self._last))
+        self._attempt(self._resume)
         if self._gap is not None:
             return
         self._told_losses.clear()  # every part tells all of them
         self._part_begins(self._now_ns())
         if gap is not None:
+            self._where = "between its parts"
             self._notices.append(f"recording goes on in {self._parts.paths[-1]}: {gap.missing} entries are missing")
 
+    def _resume(self) -> None:
+        """What a further part begins with: what stands, and tables that found no room in the one before."""
+        self._scribe.stand(self._last)
+        while self._tables:
+            self._container.add_metadata(*self._tables[0])
+            self._tables.popleft()
+
     def _abandon(self, error: OSError) -> None:
-        """The disk did not take what there was: end this part with what it has, and try another later."""
+        """The disk did not take what there was: end this part with what it has, and try another later.
+
+        A further part that nothing got into is taken away again, or a full disk would fill with them.
+        """
         missing = self._dropped_raw + self._overflowed
         self._dropped_raw += self._scribe.take_back(self._container.abandon())
+        if self._resumed_at is not None and not self._container.newest_ns:
+            missing = self._resumed_at
+            self._parts.withdraw()
         self._parts.close()
         self._open_gap(_reason(error), missing)
 
@@ -411,8 +470,16 @@ class Recorder:
     def _break(self, error: Exception) -> None:
         """A fault of ours: nothing is recorded any more, and `close` says so."""
         self._broken = True
-        self._dropped_raw += 1
-        self._abandon(OSError(0, f"{type(error).__name__}: {error}"))
+        reason = f"{type(error).__name__}: {error}"
+        if self._gap is not None:
+            self.failure = self.failure or f"writing failed: {reason}"
+            self._notices.append(f"nothing is recorded: {reason}; the flight goes on without")
+            return
+        try:
+            self._abandon(OSError(0, reason))
+        except Exception:  # the same again: what is on the disk stays as it is
+            self._parts.close()
+            self._open_gap(reason)
 
     def _retry(self) -> None:
         """A new part, if it is time for one and there is room."""

@@ -2,8 +2,9 @@
 
 In place, and so that it can be killed at any moment and begun again:
 - what is missing is only the end (a crash, a full disk): the end is written over what hangs behind the last whole
-  record, then the file is cut there
-- something in the middle is damaged: everything whole is copied to a file beside, which then takes its place
+  record and holds nothing, then the file is cut there
+- something in the middle is damaged, or there is something to be kept of a chunk that is cut off: everything whole is
+  copied to a file beside, which then takes its place
 
 Only what proves itself is kept (`logs.scan`), so nothing wrong is read from a recovered file, and never less than a
 reader would have got that goes from front to back and checks. A file that somebody writes is left alone: a recorder
@@ -12,8 +13,10 @@ holds a lock on it.
 
 import mmap
 import os
+import stat
 import zlib
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -70,7 +73,7 @@ def recover(path: Path) -> Recovered:
     """
     try:
         with open(path, "r+b") as file:
-            if not lock(file):
+            if lock(file) is False:
                 raise RecordingError(path, "it is being written; nothing was done")
             return _recover(path, file)
     except OSError as error:
@@ -99,7 +102,7 @@ def recover_unfinished(folder: Path, pattern: str = "*.mcap") -> list[Recovered 
     Returns
     -------
     What became of each, and why one could not be recovered. Files that are finished, being written, or somebody else's
-    are passed over without a word.
+    are passed over without a word, and all where the file system has no locks.
     """
     done: list[Recovered | RecordingError] = []
     for path in sorted(folder.glob(pattern)):
@@ -108,7 +111,7 @@ def recover_unfinished(folder: Path, pattern: str = "*.mcap") -> list[Recovered 
                 continue
             with open(path, "rb") as file:
                 if not lock(file):
-                    continue
+                    continue  # written, or there is no telling: then it is for a person to ask for
             outcome = recover(path)
             if outcome.changed:
                 done.append(outcome)
@@ -200,11 +203,10 @@ def _whole_in_front(pieces: Sequence[Piece], fresh: Mapping[int, list[bytes]]) -
         if piece.start != position:
             return None
         position = piece.index_end or piece.end
-        incomplete = number in fresh or (piece.kind == "chunk" and piece.indexes is None)
-        if incomplete:
-            if number != last:
-                return None
-            return piece.start if number in fresh else piece.end
+        if number in fresh:
+            return None
+        if piece.kind == "chunk" and piece.indexes is None:
+            return piece.end if number == last else None
     return position
 
 
@@ -353,6 +355,8 @@ def _copy(
             lock(file)
             _rewrite(data, pieces, found, fresh, 0, file.write, outcome)
             file.flush()
+            with suppress(OSError):  # a file system without
+                os.fchmod(file.fileno(), stat.S_IMODE(path.stat().st_mode))
             os.fsync(file.fileno())
             os.replace(beside, path)
     except BaseException:

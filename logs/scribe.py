@@ -26,7 +26,7 @@ class Scribe:
 
     Attributes
     ----------
-    rx, tx : datagrams written, by link. decoded, messages, aside : packets and records written.
+    rx, tx : datagrams written, by link. decoded, messages : packets and records written. made : mirrors, and losses.
     dropped_decoded : packets not decoded, mirrors left out. failed_mirrors : those of which nothing could be made.
     masked : datagrams whose key was masked.
     """
@@ -34,7 +34,7 @@ class Scribe:
     def __init__(self, container: Container) -> None:
         self.rx: dict[str, int] = {}
         self.tx: dict[str, int] = {}
-        self.decoded = self.messages = self.aside = self.dropped_decoded = self.masked = 0
+        self.decoded = self.messages = self.made = self.dropped_decoded = self.masked = 0
         self._framers: dict[tuple[str, Direction], Framer] = {}
         self._seen: set[bytes] = set()  # datagrams decoded in tick `_seen_tick`
         self._seen_tick = -1
@@ -91,8 +91,8 @@ class Scribe:
         log_ns, now_us, tick, topic, message = item
         data = schema.encode(message)
         channel = self._channels.record(topic, type(message))
-        if type(message) in schema.ASIDE:
-            self.aside += 1
+        if type(message) is schema.Loss:
+            self.made += 1
         else:
             self.messages += 1
         self._container.add_message(channel, tick, log_ns, now_us * 1000, data)
@@ -117,7 +117,7 @@ class Scribe:
             self._viewed(topic, data, at)
 
     def _viewed(self, topic: str, data: bytes, at: tuple[int, int, int]) -> None:
-        self.aside += 1
+        self.made += 1
         self._container.add_message(self._channels.mirror(topic), at[2], at[0], at[1] * 1000, data)
 
     def take_back(self, lost: Mapping[int, int]) -> int:
@@ -136,8 +136,8 @@ class Scribe:
                     continue
                 case "messages":
                     self.messages -= count
-                case "aside":
-                    self.aside -= count
+                case "made":
+                    self.made -= count
                     continue
             missing += count
         return missing

@@ -37,8 +37,7 @@ with Recorder(Path(sys.argv[1]), metadata={"run": {"seed": "1"}}, threaded=True)
         tick += 1
         time.sleep(0.02)
 """
-MISSING_S = 0.6
-"""Half a second to the flush, and some for the disk and a busy machine."""
+MISSING_S = 0.5
 
 
 @contextmanager

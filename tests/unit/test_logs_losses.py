@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from logs_traffic import heartbeat, record
 
-from logs import Recording, schema, ticks
+from logs import Recording, RecordingError, schema, ticks
 from logs import recorder as recorder_module
 from logs.parts import Rotation
 from logs.recorder import Recorder
@@ -73,6 +73,28 @@ def test_other_counters_are_asked_for_and_told_like_it_and_a_closed_socket_does_
     ]
 
 
+def test_counters_that_cannot_be_read_end_the_recording_with_a_word_and_every_entry_is_accounted_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recorder_module, "FLUSH_S", 0.0)
+    monkeypatch.setattr(recorder_module, "LOSSES_S", 0.0)
+
+    def losses() -> dict[str, int]:
+        raise RuntimeError("dictionary changed size during iteration")
+
+    path = tmp_path / "a.mcap"
+    recorder = Recorder(path, metadata={}, threaded=True, losses=losses)
+    for _ in range(4):
+        fly(recorder, 100, range(0))
+        recorder._wake.wait(0.12)  # two turns of the writer
+    with pytest.raises(
+        RecordingError, match=r"RuntimeError: dictionary changed size .* entries are missing at its end"
+    ):
+        recorder.close()
+    raw = [m for m in Recording.open(path).messages() if "HEARTBEAT" not in m.channel.topic]
+    assert len(raw) + recorder.counters.dropped_raw == 800
+
+
 def test_every_part_tells_the_totals_so_far(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     with Recorder(path, metadata={}, threaded=False, rotation=Rotation(seconds=5.0)) as recorder:
@@ -87,5 +109,6 @@ def test_what_the_queue_drops_is_told_at_the_end(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr(recorder_module, "BATCH_S", 10.0)  # the thread sleeps until close
     recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=True)
     fly(recorder, 200, range(0))
-    recorder.close()
+    with pytest.raises(RecordingError, match="100 entries are missing"):
+        recorder.close()
     assert ("recorder.dropped_raw", 100) in [(of, total) for _, of, total in told(tmp_path / "a.mcap")]

@@ -14,6 +14,7 @@ from mcap.reader import NonSeekingReader, make_reader
 from logs import Attachment, Recording, RecordingError, schema, ticks
 from logs import parts as parts_module
 from logs.info import info
+from logs.mirrors import Said
 from logs.parts import Room, Rotation
 from logs.recorder import Recorder
 
@@ -218,17 +219,38 @@ def test_a_full_disk_ends_a_part_and_a_new_one_tells_what_is_missing(
     assert len(recording.gaps) == len(gaps)
 
 
-def test_a_disk_that_stays_full_costs_what_comes_after_and_close_says_so(
+def test_a_table_that_finds_no_room_stands_in_the_next_part_and_mirrors_are_no_entries_that_are_missing(
     tmp_path: Path, disk: Callable[[int], FullDisk]
 ) -> None:
-    full = disk(30_000)
+    full = disk(20_000)
     recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=False)
-    fly(recorder, 30.0)
+    tick = fly(recorder, 20.0)
+    missing = recorder.counters.dropped_raw
+    at: dict[str, int] = {"log_time_ns": 21_000_000_000, "now_us": 21_000_000, "tick": tick}
+    recorder.mirror(Said(6, "words"), **at)
+    recorder.metadata("outcome", {"ok": "yes"})
+    assert recorder.counters.dropped_raw == missing > 0
+    full.room += 100_000
+    with pytest.raises(RecordingError, match=f"; {missing} entries are missing between its parts"):
+        recorder.close()
+    others = sorted(tmp_path.iterdir())[1:]
+    assert {told(path)["gap"] for path in others} == {"No space left on device"}
+    assert sum(int(told(path)["gap_missing"]) for path in others) == missing
+    assert Recording.open(tmp_path / "a.mcap").metadata["outcome"] == {"ok": "yes"}
+
+
+@pytest.mark.parametrize("room", [20_000, 30_000, 33_333])
+def test_a_disk_that_stays_full_costs_what_comes_after_and_close_says_so(
+    tmp_path: Path, disk: Callable[[int], FullDisk], room: int
+) -> None:
+    full = disk(room)
+    recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=False)
+    fly(recorder, 60.0)
     full.room = 0
     with pytest.raises(RecordingError, match=r"writing failed: No space left on device; \d+ .* missing at its end"):
         recorder.close()
-    assert (tmp_path / "a.mcap").is_file()
-    assert all(strict(path) for path in tmp_path.iterdir())  # no empty parts
+    assert recorder.paths == tuple(sorted(tmp_path.iterdir()))
+    assert all(strict(path) for path in recorder.paths)  # no empty parts
 
 
 def test_a_disk_that_fills_up_is_told_then_decoded_no_more_then_left_alone(
@@ -267,7 +289,6 @@ def test_a_disk_that_fills_up_is_told_then_decoded_no_more_then_left_alone(
     tick = go_on(50, tick)
     assert "nothing is recorded: 0.0 MB are left" in recorder.notices()[0]
     assert recorder.counters.dropped_raw >= 200
-    free = 900
     with pytest.raises(RecordingError, match="entries are missing between its parts"):
         recorder.close()
     assert all(strict(path) for path in tmp_path.iterdir() if path.name == "a.mcap")
@@ -289,7 +310,7 @@ def test_parts_of_another_recording_are_not_taken_for_ones_own(tmp_path: Path) -
 def test_a_fault_of_ours_ends_the_recording_with_a_word_and_leaves_it_readable(tmp_path: Path) -> None:
     recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=True)
     fly(recorder, 1.0)
-    recorder.datagram("autopilot", "rx", None, log_time_ns=1, now_us=1, tick=51)  # type: ignore[arg-type]
+    recorder.datagram("autopilot", "rx", "text", log_time_ns=1, now_us=1, tick=51)  # type: ignore[arg-type]
     fly(recorder, 1.0, 52)
     with pytest.raises(RecordingError, match=r"writing failed: TypeError: .* \d+ entries are missing at its end"):
         recorder.close()

@@ -115,13 +115,13 @@ def test_the_same_calls_give_a_byte_identical_file(tmp_path: Path) -> None:
     assert recorded(tmp_path / "a.mcap").read_bytes() == recorded(tmp_path / "b.mcap").read_bytes()
 
 
-def test_without_a_thread_the_file_is_flushed_every_half_second_of_log_time(tmp_path: Path) -> None:
+def test_without_a_thread_the_file_is_flushed_by_log_time(tmp_path: Path) -> None:
     with recorded(tmp_path / "a.mcap").open("rb") as file:
         summary = make_reader(file).get_summary()
     assert summary is not None
     spans = [(index.message_end_time - index.message_start_time) / 1e9 for index in summary.chunk_indexes]
-    assert 11 <= len(spans) <= 13
-    assert max(spans) < 0.6
+    assert 13 <= len(spans) <= 16
+    assert max(spans) < 0.5
 
 
 CROSSED: tuple[tuple[str, Direction], ...] = (("autopilot", "rx"), ("gcs", "tx"), ("tablet", "tx"))
@@ -235,11 +235,31 @@ def test_a_writer_far_behind_gives_up_decoding_first_and_counts_it(
     recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=True)
     for tick in range(400):
         recorder.datagram("autopilot", "rx", heartbeat(), log_time_ns=tick, now_us=tick, tick=tick)
-    recorder.close()
+    assert recorder.notices() == ["the disk is too slow: not everything is recorded"]
+    recorder.metadata("outcome", {"ok": "yes"})
+    with pytest.raises(RecordingError, match="the disk was too slow; 100 entries are missing in it"):
+        recorder.close()
+    assert Recording.open(tmp_path / "a.mcap").metadata["outcome"] == {"ok": "yes"}
     counters = recorder.counters
     assert counters.rx == {"autopilot": 300}
     assert counters.dropped_raw == 100
-    assert (counters.decoded, counters.dropped_decoded) == (100, 200)
+    assert (counters.decoded, counters.dropped_decoded) == (99, 201)  # of the last 100 waiting one is the table
+
+
+def test_what_waits_is_bounded_in_bytes_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(recorder_module, "MAX_BACKLOG_BYTES", 1_000_000)
+    recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=True)
+    writer = threading.Event()
+    with monkeypatch.context() as patch:
+        patch.setattr(recorder, "_look", writer.wait)  # the disk hangs
+        for tick in range(40):
+            recorder.datagram("autopilot", "rx", bytes(65_000), log_time_ns=tick, now_us=tick, tick=tick)
+        assert sum(len(item[5]) for item in recorder._queue if len(item) == 7) <= 1_065_000
+        writer.set()
+    with pytest.raises(RecordingError, match="the disk was too slow"):
+        recorder.close()
+    assert recorder.counters.rx["autopilot"] + recorder.counters.dropped_raw == 40
+    assert recorder.counters.rx["autopilot"] >= 16
 
 
 def test_a_negative_time_is_our_own_mistake_at_the_call_even_with_a_thread(tmp_path: Path) -> None:

@@ -189,6 +189,33 @@ def test_whole_messages_at_the_front_of_a_torn_chunk_are_kept(tmp_path: Path) ->
     assert outcome.lossy
 
 
+def test_a_recovery_that_is_killed_loses_nothing_of_a_torn_chunk_nor_what_others_may_do_with_the_file(
+    tmp_path: Path,
+) -> None:
+    path, rng = tmp_path / "torn.mcap", random.Random(5)
+    with path.open("wb") as file:
+        writer = Writer(file, chunk_size=1 << 22)
+        writer.start()
+        channel = writer.register_channel("/a", "bytes", 0)
+        for number in range(2000):
+            writer.add_message(channel, number, rng.randbytes(500), number, number)
+        writer.finish()
+    torn = path.read_bytes()[: path.stat().st_size // 2]
+    path.write_bytes(torn)
+    recover(path)
+    wanted = strict(path)
+    for calls in range(1, 6):
+        path.write_bytes(torn)
+        path.chmod(0o640)
+        with pytest.MonkeyPatch.context() as patch:
+            _die_after(patch, calls)
+            with suppress(_KilledError):
+                recover(path)
+        assert recover(path).messages == len(wanted) > 800
+        assert strict(path) == wanted
+        assert path.stat().st_mode & 0o777 == 0o640
+
+
 @pytest.mark.parametrize("compression", [CompressionType.ZSTD, CompressionType.LZ4, CompressionType.NONE])
 @pytest.mark.parametrize("chunked", [True, False])
 def test_files_of_other_writers_are_recovered_too(tmp_path: Path, compression: CompressionType, chunked: bool) -> None:
@@ -359,6 +386,22 @@ def test_a_file_that_somebody_writes_is_left_alone(tmp_path: Path) -> None:
         assert recover_unfinished(tmp_path) == []
         assert path.read_bytes() == before
     assert recover_unfinished(tmp_path) == []
+
+
+def test_where_there_are_no_locks_nothing_is_recovered_unasked(
+    whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It might be being written."""
+
+    def flock(descriptor: int, operation: int) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("logs.lock.fcntl.flock", flock)
+    path = tmp_path / "a.mcap"
+    path.write_bytes(whole.read_bytes()[:90_000])
+    assert recover_unfinished(tmp_path) == []
+    assert path.stat().st_size == 90_000
+    assert recover(path).changed
 
 
 def test_unfinished_files_of_a_folder_are_recovered_and_the_others_passed_over(whole: Path, tmp_path: Path) -> None:
