@@ -6,12 +6,33 @@ stderr without a traceback. Heavy imports happen inside the commands, so that `-
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, NoReturn
+from typing import Annotated, Any, Literal, NoReturn
 
 import typer
 
-if TYPE_CHECKING:
-    from logs.selection import Selection
+from companion.cli.log_commands import log_app
+from companion.cli.options import (
+    LIVE,
+    LIVE_PORT,
+    RECORDINGS,
+    Autopilot,
+    Duration,
+    Force,
+    Json,
+    Live,
+    LogFile,
+    Messages,
+    MissionFile,
+    Outs,
+    RecordDirectory,
+    RotateSize,
+    RotateTime,
+    Seed,
+    Start,
+    Systems,
+    Topics,
+    selection,
+)
 
 app = typer.Typer(
     name="companion",
@@ -23,52 +44,7 @@ app = typer.Typer(
 )
 mission_app = typer.Typer(help="Missions and ground stations' plans.", no_args_is_help=True)
 app.add_typer(mission_app, name="mission")
-log_app = typer.Typer(help="Look into recordings.", no_args_is_help=True)
 app.add_typer(log_app, name="log")
-
-MissionFile = Annotated[Path, typer.Argument(metavar="MISSION", help="Mission file (YAML).")]
-LogFile = Annotated[Path, typer.Argument(metavar="LOG", help="Recording (MCAP).")]
-Seed = Annotated[
-    int, typer.Option(help="Seed of everything random: planner, and simulated sensors.", min=0, max=2**31 - 1)
-]
-Json = Annotated[bool, typer.Option("--json", help="Print exactly one JSON object on stdout.")]
-Autopilot = Annotated[Literal["px4", "ardupilot"], typer.Option(help="Whose behaviour the bundled vehicle shows.")]
-RecordDirectory = Annotated[Path, typer.Option("--record", metavar="DIR", help="Directory for the recording.")]
-Outs = Annotated[list[str] | None, typer.Option("--out", metavar="URL", help="Forward to and from a ground station.")]
-RotateSize = Annotated[
-    float | None, typer.Option("--rotate-size", metavar="MB", help="Begin a new part of this size.", min=0.1)
-]
-RotateTime = Annotated[
-    float | None, typer.Option("--rotate-time", metavar="S", help="Begin a new part this often.", min=1.0)
-]
-
-Topics = Annotated[
-    list[str] | None, typer.Option("--topic", metavar="PATTERN", help="Only topics like this, e.g. '/mavlink/1/*'.")
-]
-Messages = Annotated[
-    list[str] | None, typer.Option("--message", metavar="NAME", help="Only messages of this name, e.g. ATTITUDE.")
-]
-Systems = Annotated[
-    list[int] | None, typer.Option("--sysid", metavar="ID", help="Only what this system sent.", min=0, max=255)
-]
-Force = Annotated[bool, typer.Option("--force", help="Replace what is there.")]
-Start = Annotated[float, typer.Option("--start", metavar="S", help="Begin so long after the first message.", min=0.0)]
-Duration = Annotated[
-    float | None, typer.Option("--duration", metavar="S", help="End so long after that (default: at the end).")
-]
-LIVE, LIVE_PORT = "--live", "8790"
-Live = Annotated[
-    int | None,
-    typer.Option(
-        LIVE,
-        metavar="[PORT]",
-        help=f"Show it as it happens on a page of this machine, at port {LIVE_PORT} or this one (0: any).",
-        min=0,
-        max=65535,
-    ),
-]
-
-RECORDINGS = Path("recordings")
 
 
 @app.command()
@@ -193,7 +169,7 @@ def worlds(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write here instead of to stdout.")
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+    force: Force = False,
 ) -> None:
     """Write a world of one of the benchmark families as a mission file."""
     from companion.cli.worlds import write_world
@@ -205,7 +181,7 @@ def worlds(
 def mission_convert(
     source: Annotated[Path, typer.Argument(metavar="IN", help="YAML mission, QGroundControl .plan, or QGC WPL 110.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Its ending says how: .yaml, .plan, .waypoints.")],
-    force: Annotated[bool, typer.Option("--force", help="Replace OUT if it exists.")] = False,
+    force: Force = False,
 ) -> None:
     """Write a mission in another format; what that format cannot say is told."""
     from companion.cli.convert import convert_mission
@@ -246,7 +222,7 @@ def replay(
     """
     from companion.cli.replay import replay_log
 
-    wanted = _selection(topic, message, sysid, start, duration)
+    wanted = selection(topic, message, sysid, start, duration)
     rounds = None if loop else 1
     code = replay_log(
         *(log, to, rate, json),
@@ -283,6 +259,25 @@ def rerun(
 
 
 @app.command()
+def tune(
+    spec: Annotated[Path, typer.Argument(metavar="SPEC", help="What to tune (YAML): docs/tuning.md.")],
+    method: Annotated[
+        Literal["haoaroa", "aoa", "roa", "de", "cma"], typer.Option(help="Optimiser; cma wants the extra `tune`.")
+    ] = "haoaroa",
+    jobs: Annotated[int, typer.Option("-j", "--jobs", help="Processes.", min=1, max=64)] = 2,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder of the result (default: tunings/SPEC-METHOD).")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with the evaluations in the folder.")] = False,
+    json: Json = False,
+) -> None:
+    """Find gains by whole flights, and judge them on seeds that the search has not seen."""
+    from companion.cli.tune import tune_gains
+
+    raise typer.Exit(tune_gains(spec, method, jobs, out, resume, json))
+
+
+@app.command()
 def report(
     log: LogFile,
     output: Annotated[
@@ -303,132 +298,6 @@ def report(
     raise typer.Exit(report_log(log, output, png, against, json))
 
 
-@log_app.command("info")
-def log_info(log: LogFile, json: Json = False) -> None:
-    """What a recording holds."""
-    from companion.cli.log import show_info
-
-    raise typer.Exit(show_info(log, json))
-
-
-@log_app.command("recover")
-def log_recover(
-    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recordings (MCAP).")], json: Json = False
-) -> None:
-    """Make recordings whole that were not closed, cut short or damaged, in place (exit 3: something is lost)."""
-    from companion.cli.log import recover_logs
-
-    raise typer.Exit(recover_logs(logs, json))
-
-
-@log_app.command("cat")
-def log_cat(
-    log: LogFile,
-    topic: Topics = None,
-    message: Messages = None,
-    sysid: Systems = None,
-    start: Start = 0.0,
-    duration: Duration = None,
-    limit: Annotated[int | None, typer.Option("--limit", "-n", metavar="N", help="Stop after so many.", min=1)] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print a JSON object a line.")] = False,
-) -> None:
-    """Print decoded messages, one a line."""
-    from companion.cli.lookup import cat
-
-    raise typer.Exit(cat(log, _selection(topic, message, sysid, start, duration), limit, json))
-
-
-@log_app.command("filter")
-def log_filter(
-    log: LogFile,
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The smaller recording.")],
-    topic: Topics = None,
-    message: Messages = None,
-    sysid: Systems = None,
-    start: Start = 0.0,
-    duration: Duration = None,
-    force: Force = False,
-    json: Json = False,
-) -> None:
-    """Write a smaller recording: some topics, messages, senders, or a stretch of time."""
-    from companion.cli.lookup import filter_log
-
-    raise typer.Exit(filter_log(log, output, _selection(topic, message, sysid, start, duration), force, json))
-
-
-@log_app.command("diff")
-def log_diff(
-    log: LogFile,
-    other: Annotated[Path, typer.Argument(metavar="LOG2", help="Recording (MCAP).")],
-    topic: Topics = None,
-    message: Messages = None,
-    sysid: Systems = None,
-    start: Start = 0.0,
-    duration: Duration = None,
-    ignore: Annotated[
-        list[str] | None, typer.Option("--ignore", metavar="FIELD", help="Leave out a field, e.g. time_boot_ms.")
-    ] = None,
-    tolerance: Annotated[float, typer.Option(help="Numbers this near are the same, absolutely or relatively.")] = 0.0,
-    json: Json = False,
-) -> None:
-    """Compare two recordings: parameters, events, and where their messages part (exit 3: they differ)."""
-    from companion.cli.lookup import diff_logs
-
-    wanted = _selection(topic, message, sysid, start, duration)
-    raise typer.Exit(diff_logs(log, other, wanted, ignore or [], tolerance, json))
-
-
-@log_app.command("export")
-def log_export(
-    log: LogFile,
-    to: Annotated[Literal["tlog", "csv", "parquet", "json"], typer.Option("--to", help="The format.")],
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="PATH", help="File or folder (default: beside LOG).")
-    ] = None,
-    topic: Topics = None,
-    message: Messages = None,
-    sysid: Systems = None,
-    start: Start = 0.0,
-    duration: Duration = None,
-    force: Force = False,
-    json: Json = False,
-) -> None:
-    """Write a recording as .tlog, as CSV or Parquet (a folder, a file a topic), or as lines of JSON."""
-    from companion.cli.lookup import export_log
-
-    raise typer.Exit(export_log(log, to, output, _selection(topic, message, sysid, start, duration), force, json))
-
-
-@log_app.command("import")
-def log_import(
-    source: Annotated[Path, typer.Argument(metavar="FILE", help=".tlog, PX4's .ulg, or ArduPilot's .BIN.")],
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="LOG", help="The recording (default: beside FILE).")
-    ] = None,
-    force: Force = False,
-    json: Json = False,
-) -> None:
-    """Make a recording of another program's log."""
-    from companion.cli.lookup import import_file
-
-    raise typer.Exit(import_file(source, output, force, json))
-
-
-def _selection(
-    topics: list[str] | None,
-    names: list[str] | None,
-    systems: list[int] | None,
-    start_s: float,
-    duration_s: float | None,
-) -> "Selection":
-    from logs.selection import Selection
-
-    try:
-        return Selection(tuple(topics or ()), tuple(names or ()), tuple(systems or ()), (), start_s, duration_s)
-    except ValueError as error:
-        raise typer.BadParameter(str(error)) from error
-
-
 FLIGHT_KEYS = (
     *("mission", "seed", "duration_s", "path_length_m", "tracking_error_p95_m", "min_clearance_m"),
     *("setpoint_rate_hz", "setpoint_gap_max_ms", "recording"),
@@ -436,21 +305,37 @@ FLIGHT_KEYS = (
 """What the JSON of a flight always has; null where an error came first."""
 
 INTERRUPTED = 130
-"""What the command-line library exits with on Ctrl-C where no flight listens for it."""
+"""What the command-line library ends with on Ctrl-C where no flight listens for it."""
+UsageError = typer.BadParameter.__mro__[1]
+"""Its root of wrong usage, which it does not tell by name."""
 
 
 def main() -> None:
-    """Console script: a known error is one line on stderr (and a JSON object, if asked for) and exit code 1."""
+    """Console script: a known error is one line on stderr (and a JSON object, if asked for) and exit code 1 or 2."""
     try:
-        app(with_live_port(sys.argv[1:]))
-    except SystemExit as end:
-        if end.code == INTERRUPTED:
-            _fail("interrupted", 1)
-        raise
+        code = app(with_live_port(sys.argv[1:]), prog_name="companion", standalone_mode=False)
+    except typer.Abort:
+        code = INTERRUPTED
     except Exception as error:
+        if isinstance(error, UsageError):
+            _wrong_usage(error)
         if not isinstance(error, _known_errors()):
             raise
-        _fail(str(error), 2 if type(error).__name__ == "EndpointError" else 1)
+        from wire.errors import EndpointError
+
+        _fail(str(error), 2 if isinstance(error, EndpointError) else 1)
+    if code == INTERRUPTED:
+        _fail("interrupted", 1)
+    sys.exit(code)
+
+
+def _wrong_usage(error: Any) -> NoReturn:
+    """What the command-line library says of it, in one line; nothing more where it has shown the help instead."""
+    text = " ".join(error.format_message().split()).replace("Value error, ", "").removeprefix("Invalid value: ")
+    command = "companion" if error.ctx is None else error.ctx.command_path
+    if not text:
+        sys.exit(2)
+    _fail(f"{text[0].lower()}{text[1:].rstrip('.')}; see {command} --help", 2)
 
 
 def with_live_port(arguments: list[str]) -> list[str]:

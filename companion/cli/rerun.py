@@ -5,11 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import typer
 from rich.console import Console
 
 from companion.cli import show
 from companion.drivers.changes import changes_of
 from companion.drivers.rerun import rerun
+from companion.errors import RerunError
 from logs.compare import Change, Comparison
 from logs.reader import Recording
 
@@ -24,7 +26,11 @@ def rerun_log(path: Path, as_json: bool, sets: Sequence[str] = (), estimator: bo
     answer, not a failure: 0 when the recording is whole.
     """
     out = show.console()
-    recording, changes = Recording.open(path), changes_of(sets)
+    try:
+        changes = changes_of(sets)
+    except RerunError as error:
+        raise typer.BadParameter(str(error)) from error
+    recording = Recording.open(path)
     wall = time.perf_counter()
     if estimator:
         from fakevehicle.estimator_rerun import rerun_estimator

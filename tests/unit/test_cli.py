@@ -33,11 +33,30 @@ def test_bad_input_is_one_line_without_a_traceback(arguments, code, words):
     assert not done.stdout
 
 
-@pytest.mark.parametrize("arguments", [["fly", "missions/l_shape.yaml"], ["plan", "m", "--seed", "-1"], ["nonsense"]])
-def test_wrong_usage_exits_with_2(arguments):
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nonsense"], "no such command 'nonsense'; see companion --help"),
+        (["plan", "m", "--seed", "-1"], "invalid value for '--seed'"),
+        (
+            ["log", "cat", "m", "--duration", "0"],
+            "expected a time in seconds, more than 0; see companion log cat --help",
+        ),
+        (["rerun", "m", "--set", "seed"], "expected KEY=VALUE"),
+    ],
+)
+def test_wrong_usage_is_one_line_too_and_exits_with_2(arguments, words):
     done = companion(*arguments)
     assert done.returncode == 2
-    assert "Traceback" not in done.stderr
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not done.stdout
+
+
+def test_wrong_usage_is_an_object_where_one_was_asked_for():
+    done = companion("log", "diff", "one", "--json")
+    assert (done.returncode, json.loads(done.stdout)["ok"]) == (2, False)
+    assert "missing argument 'LOG2'" in done.stderr
 
 
 def test_plan_prints_one_json_object_and_draws_a_picture(tmp_path):
