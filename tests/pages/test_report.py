@@ -248,7 +248,7 @@ def test_a_layer_can_be_put_away(opened):
     place = [9.2, 10, 3.5]
     for shown in (False, True):
         opened.click_on("[data-layer=obstacles]")
-        opened.until(f"companionPage.page.scene.layers.get('obstacles').shown === {str(shown).lower()}")
+        opened.until(f"companionPage.page.scene.layers.shown('obstacles') === {str(shown).lower()}")
         opened.settle()
         assert (np.median(scene_at(opened, place)[..., 3]) > 60) == shown
 

@@ -128,6 +128,14 @@ export class Cameras {
     return target;
   }
 
+  /** Look at a place from where it was looked from before. */
+  moveTo(place: Vector3): void {
+    if (!this.controls) return;
+    const shift = place.clone().sub(this.controls.target);
+    this.controls.target.add(shift);
+    this.controls.object.position.add(shift);
+  }
+
   zoom(factor: number): void {
     if (!this.controls) return;
     const camera = this.controls.object as Camera;

@@ -161,7 +161,7 @@ export class LivePanel {
     if (scene.onGoal) return this.endGoal();
     scene.element.classList.add("aiming");
     this.goalButton.setAttribute("aria-pressed", "true");
-    const level = document.querySelector<HTMLElement>(".readout-item:nth-child(3) .value")?.textContent ?? "";
+    const level = document.querySelector<HTMLElement>("[data-readout=up] .value")?.textContent ?? "";
     const height = Math.max(1, Number(level.replace("−", "-")) || 1.5);
     let place: [number, number] | null = null;
     const altitude = h<HTMLInputElement>("input", { type: "number", step: "0.1", value: height.toFixed(1), "aria-label": "altitude in metres", oninput: () => draw() });
