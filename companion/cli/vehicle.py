@@ -103,6 +103,7 @@ def build_vehicle(
     gusts: Sequence[Gust] = (),
     wind: Vector | None = None,
     parameters: Mapping[str, float] | None = None,
+    airframe: str = "x500",
 ) -> Vehicle:
     """The vehicle in memory, standing where the mission starts, in its wind.
 
@@ -111,9 +112,11 @@ def build_vehicle(
     faults : as `fakevehicle.faults.parse_fault` reads them.
     wind : north, east, down [m/s]; None: the mission's.
     parameters : of the vehicle, where they differ from its defaults.
+    airframe : of a shipped one the name, else the path of a YAML file.
     """
     blowing = (mission.wind.north, mission.wind.east, mission.wind.down) if wind is None else wind
     config = VehicleConfig(
+        airframe=airframe,
         home=home_of(mission),
         heading=mission.heading(),
         wind_n=np.array(blowing),

@@ -74,7 +74,7 @@ class Flight:
     Raises
     ------
     MissionError : its mission cannot be read or is none.
-    ValueError : a fault, a parameter or the wind cannot be.
+    ValueError, KeyError, VehicleError : a fault, a parameter, the wind or the airframe cannot be.
 
     Attributes
     ----------
@@ -102,6 +102,7 @@ class Flight:
             gusts=spec.gusts,
             wind=spec.wind,
             parameters=dict(spec.parameters),
+            airframe=spec.airframe,
         )
 
     def fly(

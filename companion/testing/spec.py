@@ -9,6 +9,7 @@ from companion.verdict import Verdict
 from fakevehicle.config import Autopilot
 from fakevehicle.physics.wind import Gust
 
+AIRFRAME = "x500"
 LIMIT_S = 600.0
 """Simulated time after which a flight that does not end is ended; the mission's holds are added."""
 
@@ -29,6 +30,8 @@ class FlightSpec:
     reboot_s : when the vehicle restarts [s]; None: never.
     record : where to keep the recording; None: nowhere.
     limit_s : simulated time after which it is ended, its holds apart.
+    airframe : the vehicle's, by the name of a shipped one or the path of a YAML file.
+    named : what `mission` is called, where it is bytes; the files that it names are beside this one.
     """
 
     mission: Path | bytes
@@ -42,11 +45,13 @@ class FlightSpec:
     reboot_s: float | None = None
     record: Path | None = None
     limit_s: float = LIMIT_S
+    airframe: str = AIRFRAME
+    named: str = "mission.yaml"
 
     @property
     def file(self) -> str:
         """The mission's name for people and errors."""
-        return str(self.mission) if isinstance(self.mission, Path) else "mission.yaml"
+        return str(self.mission) if isinstance(self.mission, Path) else self.named
 
 
 @dataclass(frozen=True, slots=True)

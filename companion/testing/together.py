@@ -4,7 +4,10 @@ import time
 
 from companion.fleet.missions import split
 from companion.testing.many import ManyResult, fly_many
-from companion.testing.spec import FlightResult, FlightSpec
+from companion.testing.spec import AIRFRAME, FlightResult, FlightSpec
+
+ALONE = ("wind", "gusts", "faults", "parameters", "link", "reboot_s")
+"""What can be asked for of one vehicle only, as an airframe can."""
 
 
 def fly_together(spec: FlightSpec, data: bytes) -> FlightResult:
@@ -15,8 +18,8 @@ def fly_together(spec: FlightSpec, data: bytes) -> FlightResult:
     MissionError : it is none.
     ValueError : the spec asks for what is there for one vehicle only.
     """
-    alone = ("wind", "gusts", "faults", "parameters", "link", "reboot_s")
-    asked = [name for name in alone if getattr(spec, name)]
+    asked = [name for name in ALONE if getattr(spec, name)]
+    asked += ["airframe"] if spec.airframe != AIRFRAME else []
     if asked:
         raise ValueError(f"{asked[0]}: found with a mission of several vehicles, expected with one vehicle only")
     parts, cpu = split(data, spec.file), time.process_time()
