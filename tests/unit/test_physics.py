@@ -309,7 +309,7 @@ def _blown(rng: np.random.Generator, dt: float, n: int, every: int) -> FloatArra
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("dt", [0.001, 0.002, 0.005, 0.01])
+@pytest.mark.parametrize("dt", [pytest.param(0.001, marks=pytest.mark.soak), 0.002, 0.005, 0.01])
 def test_turbulence_has_the_standards_variance_whatever_the_step(dt: float) -> None:
     # L_u / V = 1 s at 3 m and 20 m/s: a variance known to 5 % at four sigma needs 2 (4 / 0.05)^2 = 12800 of them
     seen = _blown(np.random.default_rng(7), dt, round(14_000.0 / dt), round(0.05 / dt))
