@@ -1,0 +1,215 @@
+"""Work on other machines: a real scheduler and two real workers, in processes of their own, on loopback."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, closing, contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("distributed", reason="the extra dask is not installed")
+
+from campaigns.errors import SchedulerError
+from campaigns.executors.dask import dask
+from campaigns.executors.versions import difference, versions
+
+ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.slow
+
+
+def square(number: int) -> int:
+    return number * number
+
+
+def squares_slowly(item: tuple[Path, int]) -> int:
+    """Tells who begins it."""
+    folder, number = item
+    (folder / f"{number} {os.getpid()}").touch()
+    time.sleep(0.1)
+    return number * number
+
+
+def raises_hangs_or_dies(number: int) -> int:
+    if number == 1:
+        raise ValueError("one is not to be")
+    if number == 2:
+        time.sleep(600.0)
+    if number == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return number
+
+
+@contextmanager
+def started(module: str, *arguments: str, at: str, search: Sequence[Path]) -> Iterator[tuple[int, str]]:
+    """A process: its id, and what it says of where it is. What it says later is read and dropped."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", f"distributed.cli.{module}", *arguments, "--no-dashboard"],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, search))},
+        cwd="/",
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stderr is not None
+    found = next(found for line in process.stderr if (found := re.search(at, line)))
+    drain = threading.Thread(target=process.stderr.read, daemon=True)
+    drain.start()
+    try:
+        yield process.pid, found[1]
+    finally:
+        process.terminate()
+        try:
+            process.wait(10.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+        drain.join(10.0)
+        process.stderr.close()
+
+
+HERE = (ROOT, ROOT / "tests" / "unit")
+ONE_SOURCE = """\
+from campaigns.executors import versions
+versions.source = lambda: "of the tests"
+"""
+"""Somebody may edit our sources while the tests run."""
+
+
+def scheduler(*options: str, search: Sequence[Path] = HERE) -> AbstractContextManager[tuple[int, str]]:
+    options = ("--host", "127.0.0.1", "--port", "0", *options)
+    return started("dask_scheduler", *options, at=r"Scheduler at:\s+(tcp://\S+)", search=search)
+
+
+def worker(address: str, *options: str) -> AbstractContextManager[tuple[int, str]]:
+    options = ("--nthreads", "1", "--host", "127.0.0.1", *options)
+    return started("dask_worker", address, *options, at=r"Registered to:\s+(tcp://\S+)", search=HERE)
+
+
+@dataclass
+class Cluster:
+    """Where a scheduler is, and the processes."""
+
+    address: str
+    scheduler: int
+    loose: int  # a worker without a nanny: nobody starts it again
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A scheduler and two workers, one of them under a nanny; each test takes away what none after it needs."""
+    preload = tmp_path_factory.mktemp("preload") / "one_source.py"
+    preload.write_text(ONE_SOURCE)
+    more = ("--preload", str(preload))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("campaigns.executors.versions.source", lambda: "of the tests")
+        versions.cache_clear()
+        with scheduler(*more) as (process, address), pytest.MonkeyPatch.context() as impatient:
+            impatient.setattr("campaigns.executors.dask.WORKERS_S", 0.2)
+            with pytest.raises(SchedulerError, match=r"no worker within 0\.2 s"):
+                dask(address)
+            impatient.undo()
+            with worker(address, "--no-nanny", *more) as (loose, _), worker(address, *more):
+                yield Cluster(address, process, loose)
+    versions.cache_clear()
+
+
+def test_a_worker_of_other_versions_is_refused_though_it_comes_late(
+    cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with closing(dask(cluster.address)) as executor:
+        here = versions()
+        monkeypatch.setattr("campaigns.executors.dask.versions", lambda: {**here, "numpy": "1.0"})
+        with pytest.raises(SchedulerError, match=rf"a worker came .*: numpy: found {here['numpy']}, expected 1\.0$"):
+            list(executor.map(square, [1]))
+
+
+def test_a_worker_killed_in_mid_campaign_costs_no_result_and_doubles_none(cluster: Cluster, tmp_path: Path) -> None:
+    items = [(tmp_path, number) for number in range(30)]
+    outcomes = []
+    with closing(dask(cluster.address)) as executor:
+        for outcome in executor.map(squares_slowly, items):
+            outcomes.append(outcome)
+            if len(outcomes) == 5:
+                os.kill(cluster.loose, signal.SIGKILL)
+        rest = list(executor.map(raises_hangs_or_dies, range(5), timeout_s=1.0, retries=1))
+    assert [o.item for o in sorted(outcomes, key=lambda o: o.item)] == items
+    assert all(o.result == o.item[1] ** 2 and not o.error and not o.infrastructure for o in outcomes)
+    begun = [name.name.split() for name in tmp_path.iterdir()]
+    assert len({process for _, process in begun}) == 2, "both worked"
+    assert len(begun) > len(items), "what the dead one had was begun again"
+
+    told = {o.item: (o.result, o.error.partition(" at ")[0], o.infrastructure, o.attempts) for o in rest}
+    assert told == {
+        0: (0, "", "", 1),
+        1: (None, "ValueError", "", 1),
+        2: (None, "", "took longer than 1 s", 1),
+        3: (None, "", "its process was killed by signal 9", 2),
+        4: (4, "", "", 1),
+    }
+
+
+def test_a_scheduler_lost_in_mid_campaign_is_one_line_after_the_results_so_far(
+    cluster: Cluster, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with closing(dask(cluster.address)) as executor:
+        outcomes = executor.map(squares_slowly, [(tmp_path, number) for number in range(100)])
+        assert next(outcomes).result is not None
+        os.kill(cluster.scheduler, signal.SIGKILL)
+        with pytest.raises(SchedulerError, match="^" + re.escape(f"{cluster.address}: the scheduler is gone") + "$"):
+            list(outcomes)
+    assert capfd.readouterr().err == ""
+
+
+def test_a_scheduler_that_has_no_companion_is_told(tmp_path: Path) -> None:
+    with scheduler(search=()) as (_, address), pytest.raises(SchedulerError) as refused:
+        dask(address)
+    assert str(refused.value).startswith(f"{address}: the scheduler has not the same companion: ModuleNotFoundError")
+
+
+def test_nobody_there_is_told_at_once() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+    with pytest.raises(SchedulerError, match=rf"^tcp://127.0.0.1:{port}: no scheduler there: Connection refused$"):
+        dask(f"tcp://127.0.0.1:{port}")
+
+
+@pytest.mark.parametrize("says", [b"HTTP/1.1 400 Bad Request\r\n\r\n" * 9, b""])
+def test_what_is_no_scheduler_is_told(says: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("campaigns.executors.dask.ANSWER_S", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as server, ThreadPoolExecutor(1) as pool:
+
+        def answer() -> None:
+            server.accept()[0].close()
+            with server.accept()[0] as peer:
+                peer.sendall(says)
+                peer.settimeout(5.0)
+                with suppress(OSError):
+                    peer.recv(1)
+                    peer.recv(100_000)
+
+        pool.submit(answer)
+        with pytest.raises(SchedulerError, match="what answers there is no Dask scheduler"):
+            dask(f"tcp://127.0.0.1:{server.getsockname()[1]}")
+
+
+@pytest.mark.parametrize(
+    "address", ["127.0.0.1:8786", "tcp://127.0.0.1", "tcp://:8786", "tcp://a:99999", "http://a:1", ""]
+)
+def test_an_address_that_is_none_is_told(address: str) -> None:
+    with pytest.raises(SchedulerError, match="expected tcp://HOST:PORT"):
+        dask(address)
+
+
+def test_the_first_difference_is_named() -> None:
+    ours = {"python": "3.11", "numpy": "2.4.6"}
+    assert difference(ours, {**ours, "scipy": "1.0"}) == ""
+    assert difference(ours, {"python": "3.11", "numpy": "2.3"}) == "numpy: found 2.3, expected 2.4.6"
+    assert difference(ours, {"python": "3.11"}) == "numpy: found missing, expected 2.4.6"
