@@ -11,10 +11,10 @@ from pathlib import Path
 
 from logs.container import Container
 from logs.errors import RecordingError
-from logs.export import Exported, unfinished
+from logs.export import Exported, begun, unfinished
 from logs.parts import PART
 from logs.reader import RECOVERY, ChannelInfo, Recording
-from logs.selection import Selection, selected
+from logs.selection import Selection, nothing_left, selected
 
 FILTER = "filter"
 """Name of the table."""
@@ -29,7 +29,7 @@ def filtered(recording: Recording, path: Path, wanted: Selection, force: bool = 
     """
     if path.exists() and any(path.samefile(part) for part in recording.paths):
         raise RecordingError(path, "is the recording itself")
-    done = Exported(path)
+    done = begun(recording, path)
     with unfinished(path, force) as temporary, open(temporary, "xb", buffering=0) as file:
         container = Container(file)
         for name, values in _tables(recording, wanted).items():
@@ -46,10 +46,8 @@ def filtered(recording: Recording, path: Path, wanted: Selection, force: bool = 
             container.add_message(number, message.tick, message.log_time_ns, message.publish_time_ns, message.data)
             done.count(channel.topic)
         if not done.messages:
-            raise RecordingError(recording.path, "no message is left of what is asked for")
+            raise nothing_left(recording, wanted, "message")
         container.finish()
-    if recording.problem:
-        done.left_out.append(f"what the recording has lost: {recording.problem}")
     return done
 
 

@@ -5,14 +5,14 @@ Only what the vehicle sent is replayed. What was sent to it (setpoints, commands
 This is the pacing, without a socket or a clock; `logs.replay_driver` sends.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
 from logs.secrets import carries_key
-from logs.selection import Selection, selected
+from logs.selection import Selection, datagrams
 from wire.dialect import mavlink
 from wire.framing import Framer, Packet
 
@@ -55,9 +55,15 @@ def vehicle_link(recording: Recording) -> str:
     return heard[0]
 
 
-def _nobody(recording: Recording, others: Iterable[str]) -> RecordingError:
-    links = ", ".join(others) or "nothing received at all"
-    return RecordingError(recording.path, f"no autopilot was heard on any link (links: {links})")
+def _nobody(recording: Recording, others: Collection[str]) -> RecordingError:
+    """The error where no autopilot was heard, and what the recording is instead."""
+    if others:
+        return RecordingError(recording.path, f"no autopilot was heard on any link (links: {', '.join(others)})")
+    made = recording.metadata.get("import", {}).get("format")
+    if not any(message.channel.direction for message in recording.messages()):
+        of = f", made of a {made} log," if made else ""
+        return RecordingError(recording.path, f"the recording{of} holds decoded messages only, no datagrams to send")
+    return RecordingError(recording.path, "no autopilot was heard: nothing was received (a vehicle's own recording?)")
 
 
 def _links(recording: Recording, first: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -95,7 +101,7 @@ def sent_traffic(recording: Recording, link: str, wanted: Selection | None = Non
 
 
 def _traffic(recording: Recording, link: str, direction: str, wanted: Selection | None) -> Iterator[RecordedMessage]:
-    for message in selected(recording.messages(), wanted or Selection()):
+    for message in datagrams(recording.messages(), wanted or Selection()):
         channel = message.channel
         if channel.direction == direction and channel.link == link and not carries_key(message.data):
             yield message

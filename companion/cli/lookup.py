@@ -8,7 +8,6 @@ from rich.console import Console
 
 from companion.cli import show
 from logs.diff import Diff, diff
-from logs.errors import RecordingError
 from logs.export import Exported
 from logs.export.csv import to_csv
 from logs.export.json_lines import line, to_json
@@ -18,7 +17,7 @@ from logs.filter import filtered
 from logs.importing import import_log
 from logs.reader import Recording
 from logs.rows import Row, rows
-from logs.selection import Selection, selected
+from logs.selection import Selection, nothing_left, selected
 
 DIFFERENT = 3
 """Exit code of two recordings that differ."""
@@ -44,31 +43,38 @@ def cat(path: Path, wanted: Selection, limit: int | None, as_json: bool) -> int:
         sys.stderr.close()
         return 0
     if not printed:
-        raise RecordingError(path, "no decoded message is left of what is asked for")
+        raise nothing_left(recording, wanted)
+    _tell_problem(recording)
     return 0
 
 
 def filter_log(path: Path, target: Path, wanted: Selection, force: bool, as_json: bool) -> int:
     """Write a smaller recording."""
-    return _told(filtered(Recording.open(path), target, wanted, force), as_json, "messages")
+    recording = Recording.open(path)
+    with show.working(show.console(), "filtering"):
+        done = filtered(recording, target, wanted, force)
+    return _told(done, as_json, "messages")
 
 
 def export_log(path: Path, to: str, target: Path | None, wanted: Selection, force: bool, as_json: bool) -> int:
     """Write a recording in a format of others."""
     export, ending = EXPORTS[to]
     target = target or path.with_suffix(ending)
-    return _told(
-        export(Recording.open(path), target, wanted, force), as_json, "packets" if to == "tlog" else "messages"
-    )
+    recording = Recording.open(path)
+    with show.working(show.console(), "exporting"):
+        done = export(recording, target, wanted, force)
+    return _told(done, as_json, "packets" if to == "tlog" else "messages")
 
 
 def import_file(source: Path, target: Path | None, force: bool, as_json: bool) -> int:
     """Make a recording of a log of others."""
-    done = import_log(source, target or source.with_suffix(".mcap"), force)
+    with show.working(show.console(), "importing"):
+        done = import_log(source, target or source.with_suffix(".mcap"), force)
     if as_json:
         show.print_json({"ok": True, "path": str(done.path), "messages": done.messages, "told": done.told})
         return 0
-    Console().print(show.plain(f"{done.path}: {done.messages} messages"), soft_wrap=True)
+    what = "packets" if source.suffix.lower() == ".tlog" else "messages"
+    Console().print(show.plain(f"{done.path}: {done.messages} {what}"), soft_wrap=True)
     for text in done.told:
         show.console().print(show.plain(text), soft_wrap=True)
     return 0
@@ -76,12 +82,23 @@ def import_file(source: Path, target: Path | None, force: bool, as_json: bool) -
 
 def diff_logs(left: Path, right: Path, wanted: Selection, ignore: list[str], tolerance: float, as_json: bool) -> int:
     """Tell how two recordings differ; exit code 0 when they do not, 3 when they do."""
-    found = diff(Recording.open(left), Recording.open(right), wanted, ignore=ignore, tolerance=tolerance)
+    one, other = Recording.open(left), Recording.open(right)
+    with show.working(show.console(), "comparing"):
+        found = diff(one, other, wanted, ignore=ignore, tolerance=tolerance)
+    if not found.compared and not found.counts:
+        raise nothing_left(one, wanted)
+    for recording in (one, other):
+        _tell_problem(recording)
     if as_json:
         show.print_json(_diff_json(found, left, right))
     else:
         _print_diff(found, left, right, Console())
     return 0 if found.same else DIFFERENT
+
+
+def _tell_problem(recording: Recording) -> None:
+    if recording.problem:
+        show.console().print(show.plain(f"{recording.path}: not complete: {recording.problem}"), soft_wrap=True)
 
 
 def _line(row: Row, start_ns: int) -> str:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from logs.errors import RecordingError
+from logs.reader import Recording
 
 
 @dataclass(slots=True)
@@ -30,6 +31,12 @@ class Exported:
         """One message more."""
         self.messages += 1
         self.topics[topic] = self.topics.get(topic, 0) + 1
+
+
+def begun(recording: Recording, path: Path) -> Exported:
+    """An export with nothing in it yet; it says what the recording itself has lost."""
+    problem = recording.problem
+    return Exported(path, left_out=[f"what the recording has lost: {problem}"] if problem else [])
 
 
 @contextmanager

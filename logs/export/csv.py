@@ -9,12 +9,11 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from logs.errors import RecordingError
-from logs.export import Exported, FileNames, unfinished
+from logs.export import Exported, FileNames, begun, unfinished
 from logs.export.tables import Widths, cells, header
 from logs.reader import Recording
 from logs.rows import rows
-from logs.selection import Selection, selected
+from logs.selection import Selection, nothing_left, selected
 
 MOST_OPEN = 400
 """Files open at once; those of further topics are opened for every line."""
@@ -27,7 +26,7 @@ def to_csv(recording: Recording, path: Path, wanted: Selection, force: bool = Fa
     ------
     RecordingError    It cannot be written, or nothing is selected.
     """
-    done = Exported(path)
+    done = begun(recording, path)
     widths = Widths(recording, selected(recording.messages(), wanted))
     names, files = FileNames(), dict[str, Path]()
     writers: dict[str, Any] = {}
@@ -53,5 +52,5 @@ def to_csv(recording: Recording, path: Path, wanted: Selection, force: bool = Fa
             done.count(row.topic)
         stack.close()
         if not done.messages:
-            raise RecordingError(recording.path, "no decoded message is left of what is asked for")
+            raise nothing_left(recording, wanted)
     return done

@@ -7,12 +7,11 @@ doubles (JavaScript's `JSON.parse`) rounds those above 2^53, log times among the
 import json
 from pathlib import Path
 
-from logs.errors import RecordingError
-from logs.export import Exported, unfinished
+from logs.export import Exported, begun, unfinished
 from logs.export.tables import jsonable
 from logs.reader import Recording
 from logs.rows import Row, rows
-from logs.selection import Selection, selected
+from logs.selection import Selection, nothing_left, selected
 
 
 def to_json(recording: Recording, path: Path, wanted: Selection, force: bool = False) -> Exported:
@@ -22,14 +21,14 @@ def to_json(recording: Recording, path: Path, wanted: Selection, force: bool = F
     ------
     RecordingError    It cannot be written, or nothing is selected.
     """
-    done = Exported(path)
+    done = begun(recording, path)
     with unfinished(path, force) as temporary:
         with open(temporary, "w", encoding="utf-8") as file:
             for row in rows(recording, selected(recording.messages(), wanted)):
                 file.write(line(row))
                 done.count(row.topic)
         if not done.messages:
-            raise RecordingError(recording.path, "no decoded message is left of what is asked for")
+            raise nothing_left(recording, wanted)
     return done
 
 

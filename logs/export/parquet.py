@@ -11,11 +11,11 @@ from typing import Any
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
 
 from logs.errors import RecordingError
-from logs.export import Exported, FileNames, unfinished
+from logs.export import Exported, FileNames, begun, unfinished
 from logs.export.tables import jsonable
 from logs.reader import RecordedMessage, Recording
 from logs.rows import flat, row
-from logs.selection import Selection, selected
+from logs.selection import Selection, nothing_left, selected
 from logs.transcode import PACKAGE
 
 GROUP = 8192
@@ -35,7 +35,7 @@ def to_parquet(recording: Recording, path: Path, wanted: Selection, force: bool 
     except ImportError as error:
         reason = "Parquet wants the package pyarrow: pip install 'mavlink-companion[parquet]'"
         raise RecordingError(path, reason) from error
-    done = Exported(path)
+    done = begun(recording, path)
     names = FileNames()
     tables: dict[str, _Table] = {}
     with unfinished(path, force, folder=True) as folder:
@@ -53,7 +53,7 @@ def to_parquet(recording: Recording, path: Path, wanted: Selection, force: bool 
             for table in tables.values():
                 table.close()
         if not done.messages:
-            raise RecordingError(recording.path, "no decoded message is left of what is asked for")
+            raise nothing_left(recording, wanted)
     return done
 
 

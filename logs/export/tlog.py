@@ -10,10 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from logs.errors import RecordingError
-from logs.export import Exported, unfinished
+from logs.export import Exported, begun, unfinished
 from logs.reader import RecordedMessage, Recording
 from logs.secrets import SETUP_SIGNING
-from logs.selection import Selection, selected
+from logs.selection import Selection, datagrams, nothing_left
 from logs.wire_replay import vehicle_link
 from wire.framing import Framer
 
@@ -24,14 +24,14 @@ _HORIZON_NS = 2_000_000_000
 def to_tlog(recording: Recording, path: Path, wanted: Selection, force: bool = False) -> Exported:
     """Write the packets of the selected datagrams, both directions, in the order of time.
 
-    Without links or topics selected: of the vehicle's link, or of all links where no autopilot was heard.
+    Without links or raw topics selected: of the vehicle's link, or of all links where no autopilot was heard.
 
     Raises
     ------
     RecordingError    The file cannot be written, or nothing is selected.
     """
-    done = Exported(path)
-    if not wanted.links and not wanted.topics:
+    done = begun(recording, path)
+    if not wanted.links and not any(topic.startswith("/mavlink/raw/") for topic in wanted.topics):
         try:
             wanted = replace(wanted, links=(vehicle_link(recording),))
         except RecordingError:
@@ -40,9 +40,7 @@ def to_tlog(recording: Recording, path: Path, wanted: Selection, force: bool = F
     keys = 0
     with unfinished(path, force) as temporary:
         with open(temporary, "wb") as file:
-            for message in in_time(selected(recording.messages(), wanted)):
-                if message.channel.direction is None:
-                    continue
+            for message in in_time(datagrams(recording.messages(), wanted)):
                 framer = framers.setdefault(message.channel.topic, Framer())
                 for packet in framer.packets(message.data):
                     if packet.message_id == SETUP_SIGNING:
@@ -51,7 +49,7 @@ def to_tlog(recording: Recording, path: Path, wanted: Selection, force: bool = F
                     file.write((message.log_time_ns // 1000).to_bytes(8, "big") + packet.raw)
                     done.count(message.channel.topic)
         if not done.messages:
-            raise RecordingError(recording.path, "no packet is left of what is asked for")
+            raise nothing_left(recording, wanted, "packet")
     garbage = sum(framer.counters.garbage_bytes for framer in framers.values())
     if garbage:
         done.left_out.append(f"{garbage} bytes that are in no packet")

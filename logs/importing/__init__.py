@@ -42,7 +42,8 @@ def import_log(source: Path, target: Path, force: bool = False) -> Imported:
     kinds = {".tlog": import_tlog, ".ulg": import_ulog, ".bin": import_dataflash}
     reader = kinds.get(source.suffix.lower())
     if reader is None:
-        raise RecordingError(source, f"found the ending {source.suffix or 'none'!r}, expected .tlog, .ulg or .BIN")
+        found = f"the ending {source.suffix!r}" if source.suffix else "no ending"
+        raise RecordingError(source, f"found {found}, expected .tlog, .ulg or .BIN")
     if not source.is_file():
         raise RecordingError(source, "no such file")
     # The readers print what they think of a damaged file, byte by byte; what is to be told is in `Imported`. (One of

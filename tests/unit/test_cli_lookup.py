@@ -95,6 +95,30 @@ def test_two_recordings_that_differ_end_with_3_and_those_that_do_not_with_0(log:
     assert "they part at " in out
 
 
+def test_a_comparison_of_nothing_is_an_error_and_not_a_pass(log: Path) -> None:
+    with pytest.raises(RecordingError, match=r"no decoded message is left .* it holds no ATTITUDEX"):
+        run("diff", log, log, "--message", "ATTITUDEX")
+
+
+@pytest.mark.parametrize("to", ["tlog", "csv", "json", "parquet"])
+def test_an_export_of_a_recording_cut_short_says_so(log: Path, tmp_path: Path, to: str) -> None:
+    if to == "parquet":
+        pytest.importorskip("pyarrow")
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(log.read_bytes()[:-3000])
+    code, out = run("export", cut, "--to", to, "--json")
+    [left_out] = json.loads(out)["left_out"]
+    assert (code, "cut short" in left_out) == (0, True)
+
+
+def test_what_is_printed_and_compared_of_a_recording_cut_short_comes_with_a_word(log: Path, tmp_path: Path) -> None:
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(log.read_bytes()[:-3000])
+    for arguments in (["cat", cut, "-n", 1], ["diff", cut, cut]):
+        done = CliRunner().invoke(app, ["log", *map(str, arguments)])
+        assert "cut.mcap: not complete: " in done.stderr
+
+
 def test_without_a_terminal_nobody_presses_a_key(monkeypatch: pytest.MonkeyPatch) -> None:
     with open(os.devnull) as nothing:
         monkeypatch.setattr(sys, "stdin", nothing)

@@ -6,9 +6,10 @@ import pytest
 from logs_traffic import heartbeat, record, record_captured
 
 from logs import Recording, schema
+from logs.errors import RecordingError
 from logs.recorder import Recorder
 from logs.rows import plain, rows, shortest
-from logs.selection import Selection, selected
+from logs.selection import Selection, datagrams, nothing_left, selected
 from wire.dialect import mavlink
 from wire.framing import Framer
 
@@ -105,3 +106,34 @@ def test_a_32_bit_float_is_told_in_as_few_digits_as_it_needs() -> None:
 def test_a_note_is_a_dictionary() -> None:
     message = schema._MESSAGES[schema.Note](level=4, phase="flying", text="x")
     assert plain(message) == {"level": 4, "phase": "flying", "text": "x"}
+
+
+def test_a_name_may_be_written_in_small_letters(recording: Recording) -> None:
+    assert found(recording, Selection(names=("attitude", "note"))) == found(
+        recording, Selection(names=("ATTITUDE", "Note"))
+    )
+
+
+def test_a_topic_of_decoded_packets_names_the_datagrams_they_came_in(recording: Recording) -> None:
+    named = list(datagrams(recording.messages(), Selection(topics=("/mavlink/1/1/ATTITUDE",))))
+    assert named == [
+        message
+        for message in selected(recording.messages(), Selection(names=("ATTITUDE",), systems=(1,)))
+        if message.channel.direction
+    ]
+    raw = list(datagrams(recording.messages(), Selection(topics=("/mavlink/raw/gcs/*",))))
+    assert {message.channel.topic for message in raw} == {"/mavlink/raw/gcs/rx"}
+
+
+@pytest.mark.parametrize(
+    ("wanted", "told"),
+    [
+        (Selection(names=("ATITUDE",)), r"it holds no ATITUDE \(did you mean ATTITUDE\?\)"),
+        (Selection(topics=("/nowhere/*",)), r"no topic is like '/nowhere/\*'"),
+        (Selection(systems=(7,)), r"nothing is of system 7 \(systems: 1, 255\)"),
+        (Selection(start_s=1e6), r"left of what is asked for$"),
+    ],
+)
+def test_what_leaves_nothing_is_told_with_what_may_be_meant(recording: Recording, wanted: Selection, told: str) -> None:
+    with pytest.raises(RecordingError, match=told):
+        raise nothing_left(recording, wanted)
