@@ -5,7 +5,7 @@ YAML that people write.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 MAX_MAP_FILES = 16
 """Voxel and cloud files of one mission."""
+MAX_KEPT_BYTES = 16_000_000
+"""Of one of them, for a recording, at the start of whose every part it stands."""
 
 
 class MapFile(Model):
@@ -206,6 +208,7 @@ class Mission(Model):
 
     _ground_plan: Any = PrivateAttr(default=None)
     _maps: dict[int, VoxelGrid | PointCloud] = PrivateAttr(default_factory=dict)  # by obstacle; see read_maps
+    _map_files: dict[str, bytes] = PrivateAttr(default_factory=dict)  # by the name that the mission has for them
     _world: World | None = PrivateAttr(default=None)
     _whole: World | None = PrivateAttr(default=None)
 
@@ -234,6 +237,11 @@ class Mission(Model):
         """The ground station's plan that this mission was read from, if it was."""
         plan: GroundPlan | None = self._ground_plan
         return plan
+
+    @property
+    def map_files(self) -> Mapping[str, bytes]:
+        """The files of voxels and clouds that it was read from, but for those of more than `MAX_KEPT_BYTES`."""
+        return self._map_files
 
     def keep_ground_plan(self, plan: "GroundPlan") -> None:
         """Remember the plan that it was read from."""
@@ -357,21 +365,27 @@ class Mission(Model):
         solid = solid_of(self.world.obstacles[index])
         return self._maps[index] if solid is None else solid
 
-    def read_maps(self, folder: Path) -> list[tuple[list[Any], str]]:
-        """Read the files that the world names, relative to a folder; problems as (keys, what is wrong).
+    def read_maps(self, folder: Path, known: Mapping[str, Path]) -> list[tuple[list[Any], str]]:
+        """Read the files that the world names, `known` ones or relative to a folder; problems as (keys, what is wrong).
 
         Done when the mission is parsed, so that nothing that holds a mission reads files.
         """
         problems: list[tuple[list[Any], str]] = []
         for index, obstacle in enumerate(self.world.obstacles):
             kind = "voxels" if obstacle.voxels is not None else "cloud"
+            named = obstacle.voxels or obstacle.cloud
+            if named is None:
+                continue
+            path = known.get(named.file, folder / named.file)
             try:
                 if obstacle.voxels is not None:
-                    v = obstacle.voxels
-                    self._maps[index] = voxels_in_ned(folder / v.file, v.axes, v.sha256)
+                    self._maps[index] = voxels_in_ned(path, named.axes, named.sha256)
                 elif obstacle.cloud is not None:
-                    c = obstacle.cloud
-                    self._maps[index] = cloud_in_ned(folder / c.file, c.axes, c.resolution, c.sha256)
+                    self._maps[index] = cloud_in_ned(path, named.axes, obstacle.cloud.resolution, named.sha256)
+                if path.stat().st_size <= MAX_KEPT_BYTES:
+                    self._map_files[named.file] = path.read_bytes()
+            except OSError as error:
+                problems.append((["world", "obstacles", index, kind], f"{path}: {error.strerror or error}"))
             except WorldFileError as error:
                 problems.append((["world", "obstacles", index, kind], str(error)))
         if not problems:

@@ -4,6 +4,7 @@ Each has its line: file, line, key, what was found and what was expected. The fi
 """
 
 import difflib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, get_args
 
@@ -22,6 +23,7 @@ from companion.yamlfile import line_of, read_yaml, shown
 MAX_FILE_BYTES = 1_000_000
 """A mission is written by people; beyond this it is something else."""
 EXPECTED = "a mapping with name, vehicle, world, steps"
+NO_MAPS: Mapping[str, Path] = {}
 
 
 def load_mission(path: str | Path) -> Mission:
@@ -48,10 +50,10 @@ def read_mission_file(path: str | Path) -> bytes:
         raise MissionError(str(path), [f"cannot be read: {error.strerror or error}"]) from error
 
 
-def parse_mission(data: bytes, file: str) -> Mission:
+def parse_mission(data: bytes, file: str, maps: Mapping[str, Path] = NO_MAPS) -> Mission:
     """Check a mission given as the bytes of its file; `file` is its name in errors. Raises as `load_mission`.
 
-    Files of voxels and clouds are looked for in the folder of `file`.
+    Files of voxels and clouds are looked for in the folder of `file`, but for those whose place `maps` tells.
     """
     if len(data) > MAX_FILE_BYTES:
         raise MissionError(file, [f"found more than {MAX_FILE_BYTES} bytes, expected a file that people write"])
@@ -66,7 +68,7 @@ def parse_mission(data: bytes, file: str) -> Mission:
         mission = Mission.model_validate(document, context={ORIGIN: _origin(document)})
     except ValidationError as error:
         raise MissionError(file, [_problem(item, node) for item in error.errors()]) from error
-    found = mission.read_maps(Path(file).parent)
+    found = mission.read_maps(Path(file).parent, maps)
     if found:
         raise MissionError(file, [f"line {line_of(node, k)}: {'.'.join(map(str, k))}: {text}" for k, text in found])
     return mission

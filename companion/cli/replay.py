@@ -13,9 +13,9 @@ from companion.cli import show
 from companion.cli.keys import HELP, keyboard
 from companion.cli.operator import Operator
 from companion.drivers.recording import MISSION_ATTACHMENT
+from companion.drivers.worldfiles import recorded_mission
 from companion.errors import CompanionError
 from companion.geodesy import Geodetic, to_geodetic
-from companion.missionfile import parse_mission
 from companion.planfiles import is_plan_file, read
 from companion.planfiles.items import Item, ItemFlaw
 from companion.planfiles.writing import from_steps
@@ -195,7 +195,7 @@ def _mission(recording: Recording) -> list[Any]:
 def _items(data: bytes, recording: Recording) -> list[Item]:
     if is_plan_file(data, MISSION_ATTACHMENT):
         return list(read(data, MISSION_ATTACHMENT).items)
-    mission = parse_mission(data, MISSION_ATTACHMENT)
+    mission = recorded_mission(recording, data, MISSION_ATTACHMENT)
     north, east, _ = mission.start_m()
     origin = mission.geodetic_origin()
     if origin is None:  # the mission's frame is the vehicle's, moved so that it stands where the mission says

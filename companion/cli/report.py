@@ -12,9 +12,9 @@ from rich.console import Console
 
 from companion.cli import show
 from companion.drivers.recording import MISSION_ATTACHMENT
+from companion.drivers.worldfiles import recorded_mission
 from companion.errors import CompanionError
 from companion.mission import Mission
-from companion.missionfile import parse_mission
 from logs.importing import IMPORTED, import_log
 from logs.reader import Recording
 from logs.report import contract as c
@@ -104,7 +104,7 @@ def surroundings_of(recording: Recording) -> Surroundings:
     if attached is None:
         return NOWHERE
     try:
-        mission = parse_mission(attached.data, str(recording.path.with_name(MISSION_ATTACHMENT)))
+        mission = recorded_mission(recording, attached.data, str(recording.path.with_name(MISSION_ATTACHMENT)))
     except CompanionError:
         return NOWHERE
     return surroundings(mission)

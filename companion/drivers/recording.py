@@ -16,6 +16,7 @@ from companion.core import Companion
 from companion.drivers.mirroring import Mirroring
 from companion.drivers.provenance import RUN, run_table
 from companion.drivers.tick import Tick
+from companion.drivers.worldfiles import world_attachments
 from companion.seam import (
     Flown,
     Input,
@@ -194,7 +195,10 @@ def header(companion: Companion, mission_file: bytes, **more: Mapping[str, str])
     run = run_table(companion, clock, dict(more.get("endpoints", {})))
     return {
         "metadata": {CONFIG_METADATA: config, RUN: run, **more},
-        "attachments": [Attachment(MISSION_ATTACHMENT, "application/yaml", mission_file)],
+        "attachments": [
+            Attachment(MISSION_ATTACHMENT, "application/yaml", mission_file),
+            *world_attachments(companion.mission),
+        ],
     }
 
 

@@ -9,8 +9,8 @@ from companion.core import Companion, CompanionConfig
 from companion.drivers.changes import Changes, changed_config, changed_mission
 from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, tick_record, to_input
 from companion.drivers.tick import Tick
+from companion.drivers.worldfiles import recorded_mission
 from companion.errors import RerunError
-from companion.missionfile import parse_mission
 from logs.compare import Comparison, Output, compare
 from logs.reader import Recording
 from logs.table import RecordedTick, ticks
@@ -50,7 +50,7 @@ def fresh_companion(recording: Recording, changes: Changes = NOTHING) -> Compani
         raise RerunError(f"{recording.path}: its configuration is not one of this version: {error}") from error
     file = f"{recording.path}: {MISSION_ATTACHMENT}{' as changed' if changes else ''}"
     data = changed_mission(attachment.data, changes, file)
-    return Companion(parse_mission(data, file), changed_config(config, changes) if changes else config)
+    return Companion(recorded_mission(recording, data, file), changed_config(config, changes) if changes else config)
 
 
 def rerun(

@@ -6,11 +6,19 @@ import shutil
 import subprocess
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from companion.core import Companion, CompanionConfig
 from companion.drivers.provenance import outcome_table, revision
+from companion.drivers.recording import header
+from companion.drivers.rerun import fresh_companion
 from companion.mission import Expect
+from companion.missionfile import parse_mission
 from companion.verdict import Verdict
+from logs import Recording
+from logs.parts import Rotation
+from logs.recorder import Recorder
 
 FLOWN = Verdict(
     ok=False,
@@ -78,6 +86,45 @@ def test_the_revision_is_what_git_says_it_is(tmp_path):
     git("checkout", "-q", "--detach")
     revision.cache_clear()
     assert revision(tmp_path) == head
+
+
+VOXELS = """
+name: a stair
+vehicle: {radius: 0.3, start: {north: 1, east: 1}}
+world:
+  bounds: {north: [0, 20], east: [0, 30], altitude: [0, 5]}
+  obstacles:
+    - voxels: ../maps/stair.npz
+steps:
+  - takeoff: {altitude: 1.5}
+  - land
+"""
+
+
+def test_a_recording_holds_the_maps_that_its_mission_names_so_that_it_can_be_run_again_anywhere(tmp_path):
+    maps, missions, elsewhere = (tmp_path / name for name in ("maps", "missions", "elsewhere"))
+    for folder in (maps, missions, elsewhere):
+        folder.mkdir()
+    occupied = np.zeros((4, 3, 2), dtype=bool)
+    occupied[1, 2, :] = True
+    np.savez(maps / "stair.npz", occupied=occupied, origin=np.array([6.0, 20.0, 0.0]), resolution=0.5)
+    companion = Companion(parse_mission(VOXELS.encode(), str(missions / "m.yaml")), CompanionConfig(seed=3))
+    path = elsewhere / "a.mcap"
+    rotation = Rotation(seconds=1.0)
+    with Recorder(path, threaded=False, rotation=rotation, **header(companion, VOXELS.encode())) as recorder:
+        for tick in range(100):
+            at = {"log_time_ns": tick * 20_000_000, "now_us": tick * 20_000, "tick": tick}
+            recorder.datagram("autopilot", "rx", b"x", **at)
+    shutil.rmtree(maps)
+    shutil.rmtree(missions)
+    assert len(Recording.open(path).paths) > 1
+    for part in Recording.open(path).paths:
+        alone = elsewhere / "alone.mcap"
+        shutil.copy(part, alone)
+        again = fresh_companion(Recording.open(alone))
+        (grid,) = again.mission.whole_world().obstacles
+        assert np.array_equal(grid.occupied, companion.mission.whole_world().obstacles[0].occupied)
+        assert again.config == companion.config
 
 
 @pytest.mark.parametrize("head", [None, "rubbish", "ref: refs/heads/nowhere", "\xff"])
