@@ -13,7 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.bench_tracking import FIRST_UNSEEN, FLOWN_S, HEIGHT, HOME, START_S, WIND, YAW, climb, eight
+from benchmarks.bench_tracking import FIRST_UNSEEN, WIND
+from campaigns.tuning import courses
+from campaigns.tuning.courses import HEIGHT, HOME, YAW, Eight, Wind, climb
 from fakevehicle.airframe import load_airframe
 from fakevehicle.flight import PARAMETERS, FlightStack
 from fakevehicle.geodesy import to_local
@@ -39,6 +41,9 @@ def fly(job: Job) -> float:
     """The figure of one flight: [s] of a step, [m] of an eight, [deg/s] of a hover."""
     frame = load_airframe(job.airframe)
     parameters = ParameterSet(PARAMETERS, {**(frame.parameters if job.own else {}), "SIM_WIND_GUST": job.wind})
+    if job.what == "eight":
+        flown = courses.fly(Eight(job.speed), Wind(job.wind, job.wind), job.seed, parameters, job.airframe)
+        return math.sqrt((flown.error_n[:, :2] ** 2).sum(axis=1).mean())
     wind_n = np.array([job.wind, 0.0, 0.0])
     stack = FlightStack(airframe=frame, parameters=parameters, home=HOME, heading=YAW, wind_n=wind_n, seed=job.seed)
     now_us = 0
@@ -54,29 +59,21 @@ def fly(job: Job) -> float:
     assert estimate.origin is not None
     ground, moved = estimate.position_n.copy(), to_local(HOME, estimate.origin)
     moved[2] = ground[2] - stack.truth.position_n[2]
-    for k in range(round(6.0 / DT)):
-        tick(climb(ground, (k + 1) * DT))
+    for place, velocity, acceleration in climb():
+        tick(Setpoint(ground + place, velocity, acceleration, YAW))
     hover, still, found = ground + np.array([0.0, 0.0, -HEIGHT]), np.zeros(3), []
     if job.what == "hover":
         for _ in range(round(20.0 / DT)):
             tick(Setpoint(hover, still, still, YAW))
             found.append(float((stack.truth.omega_b[:2] ** 2).mean()))
         return math.degrees(math.sqrt(np.mean(found)))
-    if job.what == "step":
-        for _ in range(round(4.0 / DT)):
-            tick(Setpoint(hover, still, still, YAW))
-        goal = hover + np.array([3.0, 4.0, 0.0])
-        for _ in range(round(6.0 / DT)):
-            tick(Setpoint(goal, still, still, YAW))
-            found.append(math.dist(stack.truth.position_n + moved, goal))
-        return DT * float(np.flatnonzero(np.array(found) > 0.3)[-1] + 1)
-    for k in range(round((START_S + FLOWN_S) / DT)):
-        setpoint = eight(hover, job.speed, (k + 1) * DT)
-        tick(setpoint)
-        if (k + 1) * DT > START_S:
-            away = stack.truth.position_n + moved - setpoint.position_n
-            found.append(float((away[:2] ** 2).sum()))
-    return math.sqrt(np.mean(found))
+    for _ in range(round(4.0 / DT)):
+        tick(Setpoint(hover, still, still, YAW))
+    goal = hover + np.array([3.0, 4.0, 0.0])
+    for _ in range(round(6.0 / DT)):
+        tick(Setpoint(goal, still, still, YAW))
+        found.append(math.dist(stack.truth.position_n + moved, goal))
+    return DT * float(np.flatnonzero(np.array(found) > 0.3)[-1] + 1)
 
 
 COLUMNS = (("step", 0.0, 0.0), ("eight", 3.0, 0.0), ("eight", 5.0, 0.0), ("eight", 3.0, WIND), ("hover", 0.0, WIND))

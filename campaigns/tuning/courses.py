@@ -131,7 +131,7 @@ def fly(course: Course, wind: Wind, seed: int, parameters: ParameterSet, airfram
     limit = TOO_FAR + (course.metres if isinstance(course, Step) else 0.0)
     lost = ""
     try:
-        for place, velocity, acceleration in _climb():
+        for place, velocity, acceleration in climb():
             now += dt
             stack.tick(now, Setpoint(ground + place, velocity, acceleration, YAW), True)
         for k, (place, velocity, acceleration) in enumerate(track):
@@ -192,7 +192,7 @@ def eight(speed: float, t: float) -> Row:
 
 
 @lru_cache(maxsize=1)
-def _climb() -> tuple[Row, ...]:
+def climb() -> tuple[Row, ...]:
     """From the ground to HEIGHT in two thirds of CLIMB_S, and hover."""
     up, long = np.array([0.0, 0.0, -HEIGHT]), 2.0 * CLIMB_S / 3.0
     rows = []
