@@ -41,7 +41,8 @@ class Progress:
     counters : what the socket counted.
     paused : it stands still. ended : by whom it was asked to end, False if the traffic did.
     spacing_error_p99_s : of the differences between the times of two successive datagrams, as they were sent and as
-        they should have been, 99 of 100 are smaller [s]; only at the end, and without those a person paused.
+        they should have been, 99 of 100 are smaller [s]; only at the end, and without those a person paused. None
+        where there were no two.
     """
 
     elapsed_s: float
@@ -51,7 +52,7 @@ class Progress:
     answers: int = 0
     paused: bool = False
     ended: bool = False
-    spacing_error_p99_s: float = 0.0
+    spacing_error_p99_s: float | None = None
 
 
 def replay(
@@ -95,6 +96,9 @@ class _Replay:
         self._sent = self._answers = 0
         self._at_s = 0.0
         self._ended = False
+        self._started_s = self._told_s = time.monotonic()
+        self._pace = Pace(self._started_s)
+        self._running = False
         self._spacings = array("d")
         self._last: tuple[float, float] | None = None  # sent and due, of the datagram before; None after a pause
 
@@ -103,7 +107,7 @@ class _Replay:
             wait([self._link], 0.1)
             self._listen()
         self._started_s = self._told_s = time.monotonic()
-        self._pace = Pace(self._started_s)
+        self._pace, self._running = Pace(self._started_s), True
         ahead: deque[Due] = deque()
         source = iter(traffic)
         more = True
@@ -139,7 +143,7 @@ class _Replay:
             now_s = time.monotonic()
             if key == "quit":
                 self._ended = True
-            elif hasattr(self, "_pace"):
+            elif self._running:  # before it runs there is nothing to hold
                 if key == "pause":
                     self._pace.toggle(now_s)
                 else:
@@ -197,7 +201,7 @@ class _Replay:
             self._told_s = now_s
             self._tell(self._now())
 
-    def _now(self, p99_s: float = 0.0) -> Progress:
+    def _now(self, p99_s: float | None = None) -> Progress:
         return Progress(
             time.monotonic() - self._started_s,
             self._sent,
@@ -209,6 +213,6 @@ class _Replay:
             p99_s,
         )
 
-    def _p99_s(self) -> float:
+    def _p99_s(self) -> float | None:
         ordered = sorted(self._spacings)
-        return ordered[min(len(ordered) - 1, len(ordered) * 99 // 100)] if ordered else 0.0
+        return ordered[len(ordered) * 99 // 100] if ordered else None

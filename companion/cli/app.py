@@ -220,20 +220,11 @@ def replay(
 
     At a terminal space pauses, the right arrow sends one datagram, q ends.
     """
-    from companion.cli.replay import replay_log
+    from companion.cli.replay import Asked, replay_log
 
     wanted = selection(topic, message, sysid, start, duration)
-    rounds = None if loop else 1
-    code = replay_log(
-        *(log, to, rate, json),
-        wanted=wanted,
-        link_name=endpoint,
-        rounds=rounds,
-        answer=answer,
-        to_a_vehicle=to_a_vehicle,
-        live=live,
-    )
-    raise typer.Exit(code)
+    asked = Asked(rate, wanted, endpoint, None if loop else 1, answer, to_a_vehicle, live)
+    raise typer.Exit(replay_log(log, to, asked, json))
 
 
 @app.command()

@@ -1,31 +1,24 @@
 """`companion replay`: recorded traffic once more; the vehicle's to a ground station, and its answers."""
 
 import gc
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
 from companion.cli import show
 from companion.cli.keys import HELP, keyboard
 from companion.cli.operator import Operator
-from companion.drivers.recording import MISSION_ATTACHMENT
-from companion.drivers.worldfiles import recorded_mission
-from companion.errors import CompanionError
-from companion.geodesy import Geodetic, to_geodetic
-from companion.planfiles import is_plan_file, read
-from companion.planfiles.items import Item, ItemFlaw
-from companion.planfiles.writing import from_steps
+from companion.drivers.missionitems import mission_items
 from logs.answering import Answering
 from logs.errors import RecordingError
 from logs.reader import Recording
 from logs.replay_driver import Progress, replay
-from logs.selection import Selection
-from logs.wire_replay import Due, paced, repeated, sent_traffic, vehicle_links, vehicle_traffic
-from wire.dialect import mavlink
+from logs.selection import Selection, nothing_left
+from logs.wire_replay import Due, paced, repeated, sent_traffic, vehicle_link, vehicle_links, vehicle_traffic
 from wire.endpoint import Endpoint
 from wire.udp import UdpLink
 
@@ -34,106 +27,164 @@ TELL_S, LIVE_S = 0.1, 0.005
 MOST_KEPT = 300_000
 """Datagrams read before the replay begins, about 60 MB; of more each is read a little before its time."""
 
+Teller = Callable[[Progress], None]
 
-def replay_log(
-    path: Path,
-    to: str,
-    rate: float,
-    as_json: bool,
-    *,
-    wanted: Selection | None = None,
-    link_name: str | None = None,
-    rounds: int | None = 1,
-    answer: bool = True,
-    to_a_vehicle: bool = False,
-    live: int | None = None,
-) -> int:
-    """Replay `path` to `to`. Returns the exit code.
 
-    Parameters
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What of a recording is replayed, and how.
+
+    Attributes
     ----------
-    wanted : which datagrams; None: all.
+    rate : 1 is real time.
+    wanted : which datagrams.
     link_name : of the links on which an autopilot was heard; None: the first.
     rounds : how many times; None: until it is ended.
     answer : whether a ground station's questions are answered from the recording.
     to_a_vehicle : send what was sent to the vehicle, and nothing else.
     live : port of a live page that shows it, 0 for one that is free; None: there is none.
     """
+
+    rate: float = 1.0
+    wanted: Selection = field(default_factory=Selection)
+    link_name: str | None = None
+    rounds: int | None = 1
+    answer: bool = True
+    to_a_vehicle: bool = False
+    live: int | None = None
+
+
+def replay_log(path: Path, to: str, asked: Asked, as_json: bool) -> int:
+    """Replay `path` to `to`. Returns the exit code."""
     out = show.console()
-    wanted = wanted or Selection()
     endpoint = Endpoint.parse(to)
     recording = Recording.open(path)
-    name = _link(recording, link_name)
-    first = next(recording.messages(), None)
-    origin_ns = 0 if first is None else first.log_time_ns
-    traffic = sent_traffic if to_a_vehicle else vehicle_traffic
+    with show.working(out, "reading"):
+        traffic = _Traffic(recording, asked)
+        answers = asked.answer and not asked.to_a_vehicle
+        answering = Answering(recording.messages(), traffic.link, mission_items(recording)) if answers else None
+    if recording.problem:
+        out.print(show.plain(f"{path}: not complete: {recording.problem}"), soft_wrap=True)
+    end = _send(recording, traffic, endpoint, asked, answering, out)
+    expected = None if asked.rounds is None else traffic.total * asked.rounds
+    ok = end.counters.send_errors == 0 and (end.datagrams == expected or end.ended)
+    if not as_json:
+        _print(end, expected, out)
+        return 0 if ok else 1
+    p99_s = end.spacing_error_p99_s
+    show.print_json(
+        {
+            "ok": ok,
+            "recording": str(path),
+            "problem": recording.problem,
+            "to": str(endpoint),
+            "link": traffic.link,
+            "rate": asked.rate,
+            "datagrams": end.datagrams,
+            "of": expected,
+            "ended_early": end.ended,
+            "answers": end.answers,
+            "duration_s": end.elapsed_s,
+            "spacing_error_p99_ms": None if p99_s is None else p99_s * 1e3,
+            "send_errors": end.counters.send_errors,
+            "refused": end.counters.refused,
+        }
+    )
+    return 0 if ok else 1
 
-    def again() -> Iterator[Due]:
-        return paced(traffic(recording, name, wanted), rate, origin_ns)
 
-    kept = list(islice(again(), MOST_KEPT + 1))
-    total = len(kept) if len(kept) <= MOST_KEPT else sum(1 for _ in again())
-    if not total:
-        raise RecordingError(path, f"nothing of link {name} is left to replay by what is asked for")
-    source: Callable[[], Iterator[Due]] = kept.__iter__ if total <= MOST_KEPT else again
-    answering = Answering(recording.messages(), name, _mission(recording)) if answer and not to_a_vehicle else None
+class _Traffic:
+    """The datagrams to send, read beforehand where they are not too many.
+
+    Attributes
+    ----------
+    link : they were recorded on. total : of one round.
+    """
+
+    def __init__(self, recording: Recording, asked: Asked) -> None:
+        self.link = _link(recording, asked.link_name)
+        self._recording, self._asked = recording, asked
+        first = next(recording.messages(), None)
+        self._origin_ns = 0 if first is None else first.log_time_ns
+        kept = list(islice(self._read(), MOST_KEPT + 1))
+        self._kept = kept if len(kept) <= MOST_KEPT else None
+        self.total = len(kept) if self._kept is not None else sum(1 for _ in self._read())
+        if not self.total:
+            raise nothing_left(recording, asked.wanted, f"datagram of link {self.link}")
+
+    def rounds(self) -> Iterable[Due]:
+        """All of it, as often as was asked for."""
+        return self._once() if self._asked.rounds == 1 else repeated(self._once, self._asked.rounds)
+
+    def _once(self) -> Iterable[Due]:
+        return self._read() if self._kept is None else self._kept
+
+    def _read(self) -> Iterator[Due]:
+        of = sent_traffic if self._asked.to_a_vehicle else vehicle_traffic
+        return paced(of(self._recording, self.link, self._asked.wanted), self._asked.rate, self._origin_ns)
+
+
+def _link(recording: Recording, name: str | None) -> str:
+    """The link to replay: one with an autopilot, so that nobody's commands are taken for telemetry."""
+    if name is None:
+        return vehicle_link(recording)
+    links = vehicle_links(recording)
+    if name not in links:
+        reason = (
+            f"no autopilot was heard on link {name!r} (it was on: {', '.join(links)}); only such a link is replayed"
+        )
+        raise RecordingError(recording.path, reason)
+    return name
+
+
+def _send(
+    recording: Recording,
+    traffic: _Traffic,
+    endpoint: Endpoint,
+    asked: Asked,
+    answering: Answering | None,
+    out: Console,
+) -> Progress:
+    """Open the link and what shows it, and replay."""
     operator = Operator()
-    tell = _teller(out, rate, total)
+    tell = _teller(out, asked.rate, traffic.total)
     with ExitStack() as stack:
         link = stack.enter_context(UdpLink("ground", endpoint))
         stack.enter_context(operator.listening())
         keys = stack.enter_context(keyboard())
-        if live is not None:
-            tell = _shown(stack, live, recording, tell, out)
+        if asked.live is not None:
+            tell = _shown(stack, asked.live, recording, tell, out)
         where = f"{endpoint}" if endpoint.kind == "udpout" else f"whoever calls {endpoint}"
-        what = "WHAT WAS SENT TO THE VEHICLE" if to_a_vehicle else "the vehicle's traffic"
-        text = f"replaying {what}, {total} datagrams, to {where} at rate {rate:g}"
+        what = "WHAT WAS SENT TO THE VEHICLE" if asked.to_a_vehicle else "the vehicle's traffic"
+        text = f"replaying {what}, {traffic.total} datagrams, to {where} at rate {asked.rate:g}"
         out.print(show.plain(f"{text}{f' ({HELP})' if keys.there else ''}"), soft_wrap=True)
-        gc.collect()
-        gc.freeze()  # what is here now stays: no collection on the way walks through it again
+        stack.enter_context(_without_collections())
         end = replay(
-            source() if rounds == 1 else repeated(source, rounds),
+            traffic.rounds(),
             link,
             tell,
-            progress_s=TELL_S if live is None else LIVE_S,
+            progress_s=TELL_S if asked.live is None else LIVE_S,
             stop=lambda: operator.asked > 0,
             keys=keys,
             answering=answering,
         )
+    if out.is_terminal:
+        out.file.write("\r\x1b[2K")
+    return end
+
+
+@contextmanager
+def _without_collections() -> Iterator[None]:
+    """What is here now stays: no garbage collection on the way walks through it again."""
+    gc.collect()
+    gc.freeze()
+    try:
+        yield
+    finally:
         gc.unfreeze()
-        if out.is_terminal:
-            out.file.write("\r\x1b[2K")
-    expected = None if rounds is None else total * rounds
-    ok = end.counters.send_errors == 0 and (end.datagrams == expected or end.ended)
-    result = {
-        "ok": ok,
-        "recording": str(path),
-        "to": str(endpoint),
-        "link": name,
-        "rate": rate,
-        "datagrams": end.datagrams,
-        "of": expected,
-        "ended_early": end.ended,
-        "answers": end.answers,
-        "duration_s": end.elapsed_s,
-        "spacing_error_p99_ms": end.spacing_error_p99_s * 1e3,
-        "send_errors": end.counters.send_errors,
-        "refused": end.counters.refused,
-    }
-    if as_json:
-        show.print_json(result)
-    else:
-        nobody = f"; {end.counters.refused} refused: nobody listens there" if end.counters.refused else ""
-        answers = f", {end.answers} answers" if end.answers else ""
-        of = "" if expected is None else f" of {expected}"
-        spacing = f", spacing right to {end.spacing_error_p99_s * 1e3:.2f} ms (p99)"
-        out.print(f"{end.datagrams}{of} datagrams in {end.elapsed_s:.1f} s{spacing}{answers}{nobody}")
-    return 0 if ok else 1
 
 
-def _shown(
-    stack: ExitStack, port: int, recording: Recording, tell: Callable[[Progress], None], out: Console
-) -> Callable[[Progress], None]:
+def _shown(stack: ExitStack, port: int, recording: Recording, tell: Teller, out: Console) -> Teller:
     """Serve the live page until the stack is left; what is told then is told to it too."""
     from companion.service.livereplay import replayed_live
 
@@ -152,20 +203,7 @@ def _shown(
     return told
 
 
-def _link(recording: Recording, name: str | None) -> str:
-    """The link to replay: one with an autopilot, so that nobody's commands are taken for telemetry."""
-    links = vehicle_links(recording)
-    if name is None:
-        return links[0]
-    if name not in links:
-        reason = (
-            f"no autopilot was heard on link {name!r} (it was on: {', '.join(links)}); only such a link is replayed"
-        )
-        raise RecordingError(recording.path, reason)
-    return name
-
-
-def _teller(out: Console, rate: float, total: int) -> Callable[[Progress], None]:
+def _teller(out: Console, rate: float, total: int) -> Teller:
     """Keeps one line up to date on a terminal; nothing elsewhere. No thread draws it, which would cost us our time."""
 
     def tell(progress: Progress) -> None:
@@ -180,45 +218,12 @@ def _teller(out: Console, rate: float, total: int) -> Callable[[Progress], None]
     return tell
 
 
-def _mission(recording: Recording) -> list[Any]:
-    """The attached mission as a ground station reads it; empty where it has none, or no place on the earth."""
-    attached = recording.attachments.get(MISSION_ATTACHMENT)
-    if attached is None:
-        return []
-    try:
-        items = _items(attached.data, recording)
-    except (CompanionError, ItemFlaw):  # written by another version, or beyond what items say
-        return []
-    return [_item(number, item) for number, item in enumerate(items)]
-
-
-def _items(data: bytes, recording: Recording) -> list[Item]:
-    if is_plan_file(data, MISSION_ATTACHMENT):
-        return list(read(data, MISSION_ATTACHMENT).items)
-    mission = recorded_mission(recording, data, MISSION_ATTACHMENT)
-    north, east, _ = mission.start_m()
-    origin = mission.geodetic_origin()
-    if origin is None:  # the mission's frame is the vehicle's, moved so that it stands where the mission says
-        home = _home(recording)
-        if home is None:
-            return []
-        origin = Geodetic(*to_geodetic(home, -north, -east), home.altitude)
-    return from_steps(mission.steps, origin, (north, east))[0]
-
-
-def _home(recording: Recording) -> Geodetic | None:
-    """Where the vehicle said that its home is."""
-    for message in recording.messages():
-        if message.channel.schema == "mavlink.HOME_POSITION":
-            home = recording.decode(message)
-            return Geodetic(home.latitude / 1e7, home.longitude / 1e7, home.altitude / 1e3)
-    return None
-
-
-def _item(number: int, item: Item) -> Any:
-    p1, p2, p3, p4, latitude, longitude, altitude = item.params
-    x, y = (round(degrees * 1e7) if degrees == degrees else 0 for degrees in (latitude, longitude))
-    frame, follows = item.frame, int(item.follows)
-    return mavlink.MAVLink_mission_item_int_message(
-        0, 0, number, frame, item.command, int(number == 0), follows, p1, p2, p3, p4, x, y, altitude
-    )
+def _print(end: Progress, expected: int | None, out: Console) -> None:
+    """What came of it, in a line."""
+    of = "" if expected is None else f" of {expected}"
+    p99_s = end.spacing_error_p99_s
+    spacing = "" if p99_s is None else f", spacing right to {p99_s * 1e3:.2f} ms (p99)"
+    answers = f", {end.answers} answers" if end.answers else ""
+    nobody = f"; {end.counters.refused} refused: nobody listens there" if end.counters.refused else ""
+    text = f"{end.datagrams}{of} datagrams in {end.elapsed_s:.1f} s{spacing}{answers}{nobody}"
+    out.print(text, soft_wrap=True)

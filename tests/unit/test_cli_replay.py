@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from logs_traffic import captured, heartbeat, record_captured, sent_by_ground
 
-from companion.cli.replay import replay_log
+from companion.cli.replay import Asked, replay_log
 from logs.errors import RecordingError
 from logs.recorder import Recorder
 from logs.selection import Selection
@@ -38,7 +38,7 @@ def replayed(
 ) -> tuple[dict[str, Any], list[bytes]]:
     """What the replay said of itself, and what arrived."""
     host, port = ground.local_address
-    assert replay_log(log, f"udpout:{host}:{port}", 50.0, True, **more) == 0
+    assert replay_log(log, f"udpout:{host}:{port}", Asked(50.0, **more), True) == 0
     arrived = []
     while wait([ground], 0.05):
         arrived += [item.data for item in ground.receive()]
@@ -72,6 +72,6 @@ def test_rounds_and_filters_go_together(log: Path, ground: UdpLink, capsys: pyte
 
 def test_what_a_ground_station_sent_is_no_telemetry(log: Path, ground: UdpLink) -> None:
     with pytest.raises(RecordingError, match="no autopilot was heard on link 'gcs'"):
-        replay_log(log, "udpout:127.0.0.1:9", 1.0, True, link_name="gcs")
-    with pytest.raises(RecordingError, match="nothing of link autopilot is left"):
-        replay_log(log, "udpout:127.0.0.1:9", 1.0, True, wanted=Selection(names=("NO_SUCH",)))
+        replay_log(log, "udpout:127.0.0.1:9", Asked(link_name="gcs"), True)
+    with pytest.raises(RecordingError, match=r"no datagram of link autopilot is left .* it holds no NO_SUCH"):
+        replay_log(log, "udpout:127.0.0.1:9", Asked(wanted=Selection(names=("NO_SUCH",))), True)
