@@ -1,13 +1,11 @@
 """The command line of the simulated vehicle: options into a configuration, then the driver until Ctrl-C."""
 
-import difflib
 import math
 import os
 import signal
 import sys
 import threading
 import time
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, NoReturn, cast, get_args
@@ -22,13 +20,12 @@ from fakevehicle.config import MAX_LINKS, Autopilot, Gains, LinkConfig, VehicleC
 from fakevehicle.driver import DriverCounters, LinkPlan, Seat, open_links, px4_links, run
 from fakevehicle.errors import AirframeError, ParameterFileError, ScenarioError, VehicleError
 from fakevehicle.faults import parse_fault
-from fakevehicle.flavours import flavour_of
 from fakevehicle.geodesy import to_geodetic
-from fakevehicle.param_file import ParameterFile, load_parameter_file
-from fakevehicle.params import Parameter, ParameterSet
+from fakevehicle.overrides import known_parameters, parameters_of
+from fakevehicle.param_file import ParameterFile
 from fakevehicle.recordings import FlightLog, Folder
 from fakevehicle.scenario import Scenario, load_scenario
-from fakevehicle.vehicle import PARAMETERS, READ_ONLY, TICK_US, Vehicle
+from fakevehicle.vehicle import TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
 from logs.errors import RecordingError
 from wire.endpoint import Endpoint
@@ -309,57 +306,18 @@ def _gains(text: str) -> Gains:
     return cast(Gains, known[text])
 
 
-class _Noted(ParameterSet):
-    """Parameters that remember which were set: also to the default, which a preset may have changed."""
-
-    def __init__(self, parameters: Iterable[Parameter], overrides: Mapping[str, float]) -> None:
-        self.touched: set[str] = set()
-        super().__init__(parameters, overrides)
-
-    def set(self, name: str, value: float) -> None:
-        super().set(name, value)
-        self.touched.add(name)
-
-
-def _known(autopilot: Autopilot) -> tuple[_Noted, ParameterSet]:
-    """The parameters of a flavour under our names, and the same under its names."""
-    flavour = flavour_of(autopilot)
-    whole = _Noted((*PARAMETERS, *flavour.parameters), flavour.defaults)
-    return whole, flavour.named(whole)
-
-
 def _parameters(
     paths: list[Path], texts: list[str], autopilot: Autopilot
 ) -> tuple[dict[str, float], list[ParameterFile]]:
-    """What files, in their order, and then options set, under our names; and the files."""
-    whole, named = _known(autopilot)
-    whole.touched.clear()
-    files = [load_parameter_file(path, named, READ_ONLY) for path in paths]
-    asked = [item for file in files for item in file.values.items()] + [_parameter(text, named) for text in texts]
-    for name, value in asked:
-        named.set(name, value)
-    return {name: whole[name] for name in sorted(whole.touched)}, files
-
-
-def _parameter(text: str, known: ParameterSet) -> tuple[str, float]:
-    """Name and value; the name must exist."""
-    name, separator, value = text.partition("=")
-    if not separator:
-        raise ValueError(f"--param {text}: expected NAME=VALUE")
-    if name not in known:
-        near = difflib.get_close_matches(name, known, n=1)
-        raise ValueError(f"--param {text}: no parameter {name}" + (f", did you mean {near[0]}?" if near else ""))
-    if name in READ_ONLY:
-        raise ValueError(f"--param {text}: fixed at the start, by --instance")
     try:
-        return name, float(known.describe(name).coerced(float(value)))
+        return parameters_of(paths, texts, autopilot)
     except ValueError as error:
-        raise ValueError(f"--param {text}: {error}") from error
+        raise ValueError(f"--param {error}") from error
 
 
 def _list_parameters(autopilot: Autopilot) -> None:
     """A table of every parameter."""
-    _, named = _known(autopilot)
+    _, named = known_parameters(autopilot)
     table = Table("parameter", "default", "range", "unit", "meaning")
     for name in named:
         p = named.describe(name)
