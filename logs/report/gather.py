@@ -262,7 +262,7 @@ def _loss(recording: Recording, flight: Flight) -> list[tuple[str, int]]:
         found["packets missing by sequence"] = flight.traffic.tallies[vehicle].lost
     for name, text in recording.metadata.get("recorder", {}).items():
         if name.startswith("dropped_") and text.isdecimal():
-            found[f"recorder.{name}"] = int(text)
+            found[f"not recorded, {name.removeprefix('dropped_')}"] = int(text)
     found |= losses(flight)
     if recording.gaps:
         found["gaps between parts"] = len(recording.gaps)

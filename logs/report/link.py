@@ -134,7 +134,7 @@ def _clock(flight: Flight, part: Part) -> None:
     if len(t) <= 10:
         return
     late = 1e3 * t - boot
-    late = late - late.min()
+    late = np.round(late - late.min(), 6)  # times are whole nanoseconds
     series = lines(t, {"late": late}, "dots")
     spread = float(np.percentile(late, 95))
     seconds = t.astype(np.int64)

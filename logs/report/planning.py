@@ -57,7 +57,7 @@ def planning_part(flight: Flight, around: Surroundings) -> Part:
         series = lines(times, decided, "dots")
         part.plots.append(c.Plot("decisions", "planning", "Decisions, each kind on a line of its own", "", series))
         spare = np.array([r.clearance if abs(r.clearance) < 1e6 else np.nan for _, r in replans])
-        series = lines(times, {"spare": spare})
+        series = lines(times, {"spare": spare}, "dots")  # one stands alone as often as not
         if series:
             plot = c.Plot(
                 "spare", "planning", "What is flown keeps beyond its radius", "m", series, (("contact", 0.0),)

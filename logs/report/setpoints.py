@@ -22,7 +22,7 @@ def setpoints_part(flight: Flight, around: Surroundings) -> Part:
         return part
     number, who, rows = max(sent, key=lambda entry: len(entry[2]))
     t = np.sort(flight.times(rows))
-    gaps_ms = 1e3 * np.diff(t)
+    gaps_ms = np.round(1e3 * np.diff(t), 6)  # times are whole nanoseconds
     p50, p99 = percentiles(gaps_ms, [50, 99])
     bound = around.expected.get("setpoint_gap_p99_ms")
     levels = [("p99", p99)] + ([("limit of p99", bound[0])] if bound else [])

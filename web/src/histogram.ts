@@ -5,6 +5,7 @@ import { h, svg } from "./dom";
 import { number } from "./format";
 
 const HEIGHT = 176, LEFT = 44, RIGHT = 46, TOP = 18, BOTTOM = 24;
+const LETTER = 6; // about the width of one in a mark's label [px]
 
 export class Histogram {
   readonly element: HTMLElement;
@@ -58,15 +59,18 @@ export class Histogram {
     });
     drawing.append(svg("path", { d: line.join(""), class: "share" }),
       svg("text", { x: width - RIGHT + 4, y: y(1) + 3.5, class: "tick" }, "100 %"), svg("text", { x: width - RIGHT + 4, y: y(0.5) + 3.5, class: "tick" }, "50 %"));
-    let last = -Infinity;
+    const rows: number[] = []; // how far each row of labels reaches
     for (const mark of [...(this.json.marks ?? [])].sort((a, b) => a.value - b.value)) {
       if (mark.value < low || mark.value > high) continue;
       const at = x(mark.value);
       const label = `${mark.label} ${number(mark.value, 3)}`;
-      const end = at > width - RIGHT - 60;
+      const long = LETTER * label.length, end = at + long > width - 4;
+      const from = end ? at - 4 - long : at + 4;
+      let row = rows.findIndex((reach) => reach < from - 6);
+      if (row < 0) row = rows.length;
+      rows[row] = from + long;
       drawing.append(svg("line", { x1: at, x2: at, y1: TOP - 4, y2: y(0), class: "mark" }),
-        svg("text", { x: at + (end ? -4 : 4), y: at - last < 76 ? TOP + 8 : TOP - 6, class: `mark-label${end ? " end" : ""}` }, label));
-      last = at - last < 76 ? last : at;
+        svg("text", { x: end ? at - 4 : at + 4, y: TOP - 6 + 13 * row, class: `mark-label${end ? " end" : ""}` }, label));
     }
     this.holder.replaceChildren(drawing);
     this.element.dataset.drawn = "true";

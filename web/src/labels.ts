@@ -4,7 +4,7 @@ import { Vector3, type Camera } from "three";
 import { h } from "./dom";
 
 /** Kinds, the most telling first, each with how far below its place [px] it may stand. */
-const KINDS = { least: [-20, 20, -42], place: [14, -16, 34], mover: [-16, 14], axis: [0], tick: [0] };
+const KINDS = { least: [-20, 20, -42], place: [14, -16, 34], mover: [-16, 14], axis: [0, 16, 32], tick: [0] };
 const ALWAYS = "least"; // is shown whatever is in its way
 type Kind = keyof typeof KINDS;
 

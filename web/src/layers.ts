@@ -9,7 +9,7 @@ import { dispose } from "./solids";
 const LAYERS = [
   ["ground", "", "", true], ["path", "flown", "ink-2", true], ["reference", "reference", "ink-3", true], ["truth", "truth", "s2", false],
   ["plan", "plan", "plan", true], ["backup", "stop kept ready", "warn", true], ["obstacles", "obstacles", "solid", true],
-  ["cells", "map", "cells", true], ["movers", "movers", "mover", true], ["fence", "fence", "bad", true], ["bounds", "bounds", "ground-line", true],
+  ["cells", "map", "cells", true], ["movers", "movers", "mover", true], ["fence", "fence", "bad", true], ["bounds", "bounds", "ink-3", true],
   ["least", "least clearance", "warn", true],
 ] as const;
 export type LayerName = (typeof LAYERS)[number][0];

@@ -94,6 +94,8 @@ export class LivePanel {
   private readonly buttons: HTMLButtonElement[];
   private scene: FlightScene | null = null;
   private hide = 0;
+  /** The flight is judged: that whoever flew it has gone is no alarm any more. */
+  over = false;
 
   constructor(state: State, private readonly send: (order: string, values?: number[]) => boolean) {
     const button = (name: string, label: string, act: () => void, kind = "") => h<HTMLButtonElement>(`button.order${kind}`, {
@@ -119,12 +121,14 @@ export class LivePanel {
   show(link: LinkState, heard: number): void {
     const silent = (performance.now() - heard) / 1000;
     const ago = heard ? ` ${silent.toFixed(0)} s ago` : "";
-    this.badge.textContent = { connecting: "connecting", connected: "live", silent: "silent", lost: "lost" }[link];
+    const gone = link === "lost" && this.over, alarm = !gone && (link === "lost" || link === "silent");
+    this.badge.textContent = gone ? "ended" : { connecting: "connecting", connected: "live", silent: "silent", lost: "lost" }[link];
     this.notice.textContent = link === "lost" ? `Connection lost${ago}, trying again. What you see is old.` : `Nothing heard for ${silent.toFixed(0)} s. What you see is old.`;
-    this.notice.hidden = link !== "lost" && link !== "silent";
-    this.badge.className = `link-badge ${link}`;
-    document.body.classList.toggle("link-lost", link === "lost" || link === "silent");
-    for (const b of this.buttons) b.disabled = link !== "connected" && link !== "silent";
+    this.notice.hidden = !alarm;
+    this.badge.className = `link-badge ${gone ? "ended" : link}`;
+    document.body.classList.toggle("link-lost", alarm);
+    for (const b of this.buttons) b.disabled = this.over || (link !== "connected" && link !== "silent");
+    if (this.over) this.endGoal();
   }
 
   answered(answer: { order: string; ok: boolean; text: string }): void {

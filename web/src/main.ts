@@ -122,6 +122,7 @@ class Page {
     const { word, tone } = verdictWord(header);
     this.badge.textContent = word;
     this.badge.className = `badge ${tone}`;
+    if (this.panel) this.panel.over = header.ok !== null;
     document.title = `${header.title} · ${word}`;
   }
 

@@ -137,7 +137,7 @@ export class TimePlot {
         y: { range: (_, low, high) => this.spread(low, high) },
       },
       axes: [
-        { ...axis, size: 22, gap: 2, space: 64, values: (_, splits, __, ___, step) => splits.map((s, k) => timeLabel(s, step, this.state.range) + (k || this.state.range[1] > 120 ? "" : " s")) },
+        { ...axis, size: 26, gap: 7, space: 64, values: (_, splits, __, ___, step) => splits.map((s, k) => timeLabel(s, step, this.state.range) + (k || this.state.range[1] > 120 ? "" : " s")) },
         { ...axis, size: 54, gap: 4, space: 26, values: (_, splits, __, ___, step) => splits.map((s) => tickLabel(s, step)) },
       ],
       series: [{}, ...this.unpacked().map((line, k) => {

@@ -17,7 +17,8 @@ export class DataTable {
   private words = "";
 
   constructor(private json: TableJson) {
-    this.numeric = json.columns.map((_, k) => json.rows.some((r) => typeof r[k] === "number") && json.rows.every((r) => typeof r[k] !== "string"));
+    this.numeric = json.columns.map((name, k) =>
+      (json.rows.some((r) => typeof r[k] === "number") || name.endsWith("]")) && json.rows.every((r) => typeof r[k] !== "string"));
     this.heads = json.columns.map((name, k) => h("th", { scope: "col", class: this.numeric[k] ? "num" : "" },
       h("button", { type: "button", title: `sort by ${name}`, onclick: () => this.sort(k) }, name)));
     const search = h<HTMLInputElement>("input", {

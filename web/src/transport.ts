@@ -5,7 +5,7 @@ import { colour, h, icon } from "./dom";
 import { clock } from "./format";
 import { SPEEDS, type State } from "./state";
 
-const STRIP = 46;
+const STRIP = 46, PAD = 5; // [px]; the handle is whole at both ends
 
 /** Phases as spans of time: "a -> b (why)" begins b. */
 export function phaseSpans(events: EventJson[], end: number): { name: string; from: number; to: number }[] {
@@ -64,7 +64,7 @@ export class Transport {
   private listen(strip: HTMLElement): void {
     const move = (event: PointerEvent) => {
       const box = strip.getBoundingClientRect();
-      this.state.setCursor(this.fromFraction((event.clientX - box.left) / box.width));
+      this.state.setCursor(this.fromFraction((event.clientX - box.left - PAD) / (box.width - 2 * PAD)));
       this.state.reveal();
     };
     let down = false;
@@ -97,7 +97,7 @@ export class Transport {
     canvas.height = Math.round(STRIP * ratio);
     const ctx = canvas.getContext("2d")!;
     ctx.scale(ratio, ratio);
-    const x = (t: number) => ((t - low) / (high - low)) * width;
+    const x = (t: number) => PAD + ((t - low) / (high - low)) * (width - 2 * PAD);
     const bar = { y: 16, height: 14 };
     ctx.font = "10.5px system-ui, sans-serif";
     ctx.textBaseline = "middle";
@@ -113,7 +113,7 @@ export class Transport {
     });
     if (!spans.length) {
       ctx.fillStyle = colour("band0");
-      ctx.fillRect(0, bar.y, width, bar.height);
+      ctx.fillRect(PAD, bar.y, width - 2 * PAD, bar.height);
     }
     for (const event of this.events()) {
       if (event.kind === "phase" && event.level > 4) continue;
@@ -123,10 +123,10 @@ export class Transport {
       ctx.fillRect(x(event.t) - 0.75, bar.y - 2 - tall, 1.5, tall);
     }
     const [from, to] = state.range.map(x);
-    if (to - from < width - 1) {
+    if (to - from < width - 2 * PAD - 1) {
       ctx.fillStyle = colour("veil");
-      ctx.fillRect(0, bar.y, from, bar.height);
-      ctx.fillRect(to, bar.y, width - to, bar.height);
+      ctx.fillRect(PAD, bar.y, from - PAD, bar.height);
+      ctx.fillRect(to, bar.y, width - PAD - to, bar.height);
       ctx.strokeStyle = colour("accent");
       ctx.strokeRect(from + 0.5, bar.y - 0.5, Math.max(2, to - from - 1), bar.height + 1);
     }

@@ -35,14 +35,15 @@ export class Verdict {
       header.duration_s > 0 ? `${clock(header.duration_s, 1)} flown` : "",
       header.checks.length ? (failed ? `${failed} of ${header.checks.length} checks failed` : `${held} of ${header.checks.length} checks held`) : "",
       header.loss.length ? (lost ? `${number(lost)} lost in recording` : "nothing lost") : "",
-      header.phase && header.ok === false ? `ended as "${header.phase}"` : "",
+      header.phase && header.phase !== "done" && header.ok === false ? `ended as "${header.phase}"` : "",
     ].filter(Boolean);
+    const why = header.failure || header.checks.filter((c) => c.ok === false).map((c) => `${words(c.name)}: ${found(c.value)}, expected ${bound(c.expected)}`).join("; ");
     this.element.replaceChildren(
       h(`div.banner.${tone}`,
         h("span.stamp", word),
         h("div", h("h1", header.title), h("p.summary", summary.join(" · "), header.start_utc ? h("span.when", when(header.start_utc)) : null),
-          header.failure ? h("p.failure", header.failure) : null)),
-      h("div.verdict-grid", h("div.verdict-side", this.checks(), this.loss()), h("div.verdict-side", this.facts())));
+          why ? h("p.failure", why) : null)),
+      h("div.verdict-grid", this.checks(), this.loss(), this.facts()));
   }
 
   private checks(): HTMLElement | null {
@@ -53,7 +54,7 @@ export class Verdict {
         h("thead", h("tr", h("th", { scope: "col" }, ""), h("th", { scope: "col" }, "what"), h("th.num", { scope: "col" }, "found"), h("th.num", { scope: "col" }, "expected"))),
         h("tbody", checks.map((c) => h("tr", { class: c.ok === false ? "failed" : "" },
           h("td.mark", { "aria-label": c.ok === false ? "failed" : c.ok ? "held" : "not judged" }, c.ok === false ? "✕" : c.ok ? "✓" : "·"),
-          h("td", words(c.name)), h("td.num", cell(c.value)), h("td.num.dim", cell(c.expected))))))));
+          h("td", words(c.name)), h("td.num", found(c.value)), h("td.num.dim", bound(c.expected))))))));
   }
 
   private facts(): HTMLElement | null {
@@ -69,6 +70,16 @@ export class Verdict {
     return h("figure.card.loss", h("figcaption", h("span.plot-title", "Lost in recording")),
       h("dl", loss.map(([name, count]) => h(`div${count ? ".some" : ""}`, h("dt", words(name)), h("dd", count.toLocaleString("en"))))));
   }
+}
+
+/** What was found, in as many digits as a person compares. */
+function found(value: unknown): string {
+  return typeof value === "number" ? number(value) : cell(value);
+}
+
+/** What was expected: "<= 0.35" is "≤ 0.35". */
+function bound(value: unknown): string {
+  return cell(value).replace("<=", "≤").replace(">=", "≥");
 }
 
 /** Names of fields as people write them: duration_max_s is "duration max [s]". */
