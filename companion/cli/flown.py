@@ -2,7 +2,7 @@
 
 import subprocess
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from rich.console import Console
 
-from companion.cli import show
+from companion.cli import flight_show, show
 from companion.cli.operator import STOPPED, Operator
 from companion.core import Companion, CompanionConfig
 from companion.drivers.flight import fly_guarded
@@ -23,6 +23,7 @@ from companion.errors import CompanionError
 from companion.mission import Expect, Mission
 from companion.seam import FloatArray, Order
 from companion.verdict import FlightMeter, Verdict, judge
+from logs.container import Attachment
 from logs.errors import RecordingError
 from logs.parts import Rotation
 from logs.recorder import Recorder
@@ -57,11 +58,11 @@ class Flown:
         report = {} if page is None else {"report": str(page)}
         if as_json:
             numbers = {"recording": str(self.recording), **report, "messages_recorded": self.messages, **self.losses}
-            show.print_json({**show.verdict_json(self.verdict), **numbers})
+            show.print_json({**flight_show.verdict_json(self.verdict), **numbers})
         else:
             shown = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in self.losses.items())
             details = {"messages": str(self.messages), "losses": shown, "recording": str(self.recording), **report}
-            show.print_verdict(self.verdict, self.expect, details, Console())
+            flight_show.print_verdict(self.verdict, self.expect, details, Console())
         return 0 if self.verdict.ok else 1
 
 
@@ -74,9 +75,10 @@ def fly_recorded(
     operator: Operator,
     *,
     rotation: Rotation | None = None,
+    known: Sequence[Attachment] = (),
     live: int | None = None,
     watch: "subprocess.Popen[bytes] | None" = None,
-    progress: Progress = show.ProgressLine,
+    progress: Progress = flight_show.ProgressLine,
     go: Callable[[], bool] = lambda: True,
 ) -> Flown:
     """Prepare, fly, close everything properly, judge.
@@ -84,6 +86,7 @@ def fly_recorded(
     Parameters
     ----------
     rotation : when a part of the recording ends.
+    known : more that the recording holds, such as the vehicle's parameters.
     live : port of the live page, 0 for one that is free; None: there is none.
     watch : a process whose end is the flight's.
     progress : what a person sees of it.
@@ -104,6 +107,7 @@ def fly_recorded(
         links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
         urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
         start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
+        start["attachments"] += known
         start |= {"rotation": rotation, "losses": socket_losses(links)}
         recorder = stack.enter_context(Recorder(file, threaded=True, **start))
         notice = lambda text: out.print(show.plain(text), soft_wrap=True)  # noqa: E731  once

@@ -8,15 +8,23 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from companion.cli import show
+from companion.cli import flight_show, show
 from companion.cli.operator import STOPPED, Operator
 from companion.fleet.missions import Part
 from companion.testing.many import ManyResult, fly_many
 from fakevehicle.config import Autopilot
+from logs.parts import Rotation
 from planner import replan, warm_up
 
 
-def simulate_many(parts: list[Part], seed: int, record: Path | None, autopilot: Autopilot, as_json: bool) -> int:
+def simulate_many(
+    parts: list[Part],
+    seed: int,
+    record: Path | None,
+    autopilot: Autopilot,
+    as_json: bool,
+    rotation: Rotation | None = None,
+) -> int:
     """Fly the parts of a mission; `record` is a folder. Returns the exit code.
 
     All is well when every flight ends as its mission expects and no two hulls have touched.
@@ -28,7 +36,7 @@ def simulate_many(parts: list[Part], seed: int, record: Path | None, autopilot: 
     operator = Operator()
     wall = time.perf_counter()
     with operator.listening(), show.working(out, f"flying {len(parts)} vehicles"):
-        result = fly_many(parts, seed, autopilot, record=record, stop=lambda: operator.asked > 0)
+        result = fly_many(parts, seed, autopilot, record=record, rotation=rotation, stop=lambda: operator.asked > 0)
     wall = time.perf_counter() - wall
     more = {"simulated_s": result.simulated_s, "speedup": result.simulated_s / wall}
     return tell_many(parts, result, [STOPPED] if operator.asked else [], seed, record, more, as_json)
@@ -61,7 +69,7 @@ def tell_many(
     ok = not failures and all(verdict.ok for verdict in result.verdicts)
     if as_json:
         verdicts = [
-            {"vehicle": part.name, **show.verdict_json(verdict)}
+            {"vehicle": part.name, **flight_show.verdict_json(verdict)}
             for part, verdict in zip(parts, result.verdicts, strict=True)
         ]
         show.print_json(

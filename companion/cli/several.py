@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
-from companion.cli import show
+from companion.cli import flight_show, show
 from companion.cli.flown import Flown, fly_recorded, vehicle_log
 from companion.cli.many import tell_many
 from companion.cli.operator import STOPPED, Operator
@@ -206,8 +206,8 @@ def _one(pipe: "Connection[Any, Any]", job: _Job) -> None:
                 return False
         return bool(pipe.recv())
 
-    def progress(companion: Companion, meter: FlightMeter, out: Console) -> show.NamedNotes:
-        return show.NamedNotes(job.name, meter, out)
+    def progress(companion: Companion, meter: FlightMeter, out: Console) -> flight_show.NamedNotes:
+        return flight_show.NamedNotes(job.name, meter, out)
 
     with operator.listening():
         try:

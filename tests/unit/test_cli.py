@@ -75,3 +75,9 @@ def test_importing_the_planner_alone_pulls_in_no_mavlink_and_no_plotting():
     modules = set(json.loads(done.stdout))
     assert "planner" in modules
     assert not modules & {"pymavlink", "mcap", "matplotlib", "wire", "logs", "companion", "fakevehicle", "filterpy"}
+
+
+def test_looking_into_a_recording_begins_at_once_since_nothing_of_flying_is_imported():
+    code = "import json, sys, companion.cli.lookup, companion.cli.log; print(json.dumps(sorted(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not set(json.loads(done.stdout)) & {"planner", "numba", "numpy", "matplotlib", "companion.core"}
