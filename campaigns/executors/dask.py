@@ -168,6 +168,8 @@ class Cluster:
         except Exception as error:
             if type(error).__name__ == "KilledWorker":
                 return Outcome(item, infrastructure="every worker that had it died", attempts=before + 1), True
+            if future.status != "error":
+                self._look()  # it is there: only the result cannot be read here
             return Outcome(item, error=told(error), attempts=before + 1), False  # what cannot be sent back
         return Outcome(item, done.result, done.error, done.infrastructure, before + done.attempts), False
 
