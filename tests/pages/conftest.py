@@ -1,7 +1,5 @@
 """One browser and one flown example for all tests of pages."""
 
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,15 +9,19 @@ import pytest
 from logs.report import write_page
 from tests.pages.browser import CHROMIUM, MISSING, Browser, Page
 from tests.pages.example import example
+from tests.report.flight import Flown, fly_round
 
 
 @pytest.fixture(scope="session")
-def flown(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """The data of a page of a flight round the L-shaped wall."""
-    path = tmp_path_factory.mktemp("flown") / "flight.mcap"
-    command = [sys.executable, "-m", "companion", "simulate", "missions/l_shape.yaml", "--record", str(path), "--json"]
-    subprocess.run(command, check=True, capture_output=True, timeout=120)
-    return example(path).to_json()
+def recordings(tmp_path_factory: pytest.TempPathFactory) -> Flown:
+    """Both sides of a flight round the L-shaped wall."""
+    return fly_round(tmp_path_factory.mktemp("flown"))
+
+
+@pytest.fixture(scope="session")
+def flown(recordings: Flown) -> dict[str, Any]:
+    """The data of a page of that flight."""
+    return example(recordings.companions).to_json()
 
 
 @pytest.fixture(scope="session")

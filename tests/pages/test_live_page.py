@@ -45,22 +45,38 @@ def moment(k: int) -> dict:
     }
 
 
-@pytest.fixture
-def server() -> Iterator[LiveServer]:
+@pytest.fixture(scope="module")
+def serving() -> Iterator[LiveServer]:
     served = LiveServer(start())
     served.page = live_page("/live?key=a", TOKEN)
     yield served
     served.stop()
 
 
-@pytest.fixture
-def live(browser: Browser, server: LiveServer) -> Iterator[Page]:
-    page = browser.page(f"http://127.0.0.1:{server.port}/")
+@pytest.fixture(scope="module")
+def looking(browser: Browser, serving: LiveServer) -> Iterator[Page]:
+    page = browser.page(f"http://127.0.0.1:{serving.port}/")
     page.until("window.companionPage?.ready && companionPage.link.state === 'connected'")
     yield page
     origins = ("http://127.0.0.1:", "ws://127.0.0.1:")
     assert all(url.startswith(origins) or url == "data:," for url in page.requests), page.requests
     page.close()
+
+
+@pytest.fixture
+def server(serving: LiveServer) -> LiveServer:
+    serving.orders.clear()
+    return serving
+
+
+@pytest.fixture
+def live(looking: Page, server: LiveServer) -> Page:
+    """The page as another flight begins: all of it comes anew, as from a service that flies one after the other."""
+    looking.js("document.querySelector('.page').remove()")
+    server.send(server.first)
+    looking.until("!!document.querySelector('.page') && companionPage.link.state === 'connected'")
+    looking.complaints.clear()
+    return looking
 
 
 def wait(condition: Callable[[], object], timeout: float = 10.0) -> None:
@@ -82,7 +98,7 @@ def test_what_is_appended_is_drawn_and_the_newest_moment_is_followed(live: Page,
     assert live.js("document.querySelector('#plot-error .value').textContent") == "0.03"
     assert live.js("document.querySelector('.badge').textContent") == "flying"
     assert live.js("document.querySelectorAll('.event').length") == 1
-    assert server.paths == ["/live?key=a"]
+    assert set(server.paths) == {"/live?key=a"}
     assert live.complaints == []
 
 
@@ -142,8 +158,24 @@ def test_a_lost_connection_is_said_plainly_and_mended_by_itself(live: Page, serv
     assert live.js("document.querySelectorAll('dialog[open]').length") == 1  # not one for each page there was
 
 
+def test_a_connection_that_ends_with_the_flight_is_no_alarm(live: Page, server: LiveServer):
+    server.send({"append": {"header": {"ok": True, "phase": "done"}}})
+    live.until("document.querySelector('.badge').textContent === 'passed'")
+    server.stop()
+    live.until("document.querySelector('.link-badge').textContent === 'ended'")
+    assert live.js("document.querySelector('.lost-notice').hidden")
+    assert not live.js("document.body.classList.contains('link-lost')")
+    assert live.js("document.querySelector('[data-order=land]').disabled")
+    server.start()
+    live.until(
+        "companionPage.link.state === 'connected' && document.querySelector('.link-badge').textContent === 'live'"
+    )
+
+
 def test_silence_on_a_standing_connection_is_said(live: Page, server: LiveServer):
     server.send(moment(0))
+    live.until(f"{PAGE}.scene.path.length === 1")
+    live.js("companionPage.link.heard -= 2500")  # so long ago
     live.until("!!document.querySelector('.link-badge.silent')")
     assert "Nothing heard for" in live.js("document.querySelector('.lost-notice:not([hidden])').textContent")
     server.send(moment(1))

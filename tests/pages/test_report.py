@@ -2,6 +2,7 @@
 
 import base64
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -253,12 +254,19 @@ def test_a_layer_can_be_put_away(opened):
         assert (np.median(scene_at(opened, place)[..., 3]) > 60) == shown
 
 
-def test_the_timeline_opens_at_the_moment_the_cursor_is_at(browser: Browser, report):
-    page = browser.page(report.as_uri(), 900, 500)
+@pytest.fixture(scope="module")
+def dark(browser: Browser, report) -> Iterator[Page]:
+    """The report as it opens in a small window of a dark system."""
+    page = browser.page(report.as_uri(), 900, 500, dark=True)
     page.until("window.companionPage?.ready")
-    _, top, _, height = page.box(".events")
-    assert top < page.box(".event.now")[1] < top + height
+    yield page
+    assert page.complaints == []
     page.close()
+
+
+def test_the_timeline_opens_at_the_moment_the_cursor_is_at(dark: Page):
+    _, top, _, height = dark.box(".events")
+    assert top < dark.box(".event.now")[1] < top + height
 
 
 def test_events_are_filtered_by_level_kind_and_words_and_lead_to_their_moment(opened, flown):
@@ -292,20 +300,16 @@ def test_a_table_is_sorted_by_a_click_and_searched_by_words(opened):
     assert opened.js(f"document.querySelector('{table} tbody').innerText").split() == ["MPC_EXAMPLE_07", "4.9", "0.7"]
 
 
-def test_dark_is_what_the_system_asks_for_and_a_click_changes_it(browser: Browser, report):
-    page = browser.page(report.as_uri(), dark=True)
-    page.until("window.companionPage?.ready")
-    assert page.js("companionPage.page.plots.all.filter((p) => p.drawn).length") < 6  # the others are not in sight
+def test_dark_is_what_the_system_asks_for_and_a_click_changes_it(dark: Page):
+    assert dark.js("companionPage.page.plots.all.filter((p) => p.drawn).length") < 6  # the others are not in sight
     ground = "getComputedStyle(document.body).backgroundColor"
-    assert page.js(ground) == "rgb(15, 18, 23)"
-    plot_middle(page, "speed")
-    page.press("t")
-    page.settle()
-    assert page.js(ground) == "rgb(244, 245, 247)"
-    assert near(picture_of(page, "#plot-speed canvas"), (37, 99, 235), 40) > 100
-    page.press("t")
-    assert page.complaints == []
-    page.close()
+    assert dark.js(ground) == "rgb(15, 18, 23)"
+    plot_middle(dark, "speed")
+    dark.press("t")
+    dark.settle()
+    assert dark.js(ground) == "rgb(244, 245, 247)"
+    assert near(picture_of(dark, "#plot-speed canvas"), (37, 99, 235), 40) > 100
+    dark.press("t")
 
 
 def test_a_phone_shows_one_column_with_the_scene_first_and_nothing_beyond_its_edge(browser: Browser, report):
@@ -401,19 +405,42 @@ def test_a_browser_without_webgl_shows_everything_but_the_scene(browser: Browser
     page.close()
 
 
-def test_what_differs_by_rounding_only_is_drawn_flat(browser: Browser, tmp_path):
-    series = contract.Series("gap", np.arange(100.0), np.full(100, 20.0))
-    plot = contract.Plot("p", "setpoints", "p", "ms", (series,), (("p99", 20.000001),))
-    data = contract.Report(
-        contract.Header("flat", duration_s=99.0), contract.Scene(contract.Track([], [], [], [])), (plot,)
+@pytest.fixture(scope="module")
+def odd(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    """A page of a series that only rounding makes uneven, and of one with a spike and a gap of one sample."""
+    count = 45_000
+    values = np.zeros(count)
+    values[31_234], values[100] = 5.0, np.nan
+    level = contract.Series("gap", np.arange(100.0), np.full(100, 20.0))
+    spike = contract.Series("a", np.arange(count) / 75, values)
+    plots = (
+        contract.Plot("flat", "setpoints", "flat", "ms", (level,), (("p99", 20.000001),)),
+        contract.Plot("spike", "tracking", "spike", "m", (spike,)),
     )
-    write_page(data.to_json(), tmp_path / "flat.html")
-    page = browser.page((tmp_path / "flat.html").as_uri())
+    data = contract.Report(
+        contract.Header("odd", duration_s=600.0), contract.Scene(contract.Track([], [], [], [])), plots
+    )
+    path = tmp_path_factory.mktemp("odd") / "odd.html"
+    write_page(data.to_json(), path)
+    page = browser.page(path.as_uri())
     page.until("window.companionPage?.ready")
-    plot_middle(page, "p")
-    scale = page.js("companionPage.page.plots.find('p').plot.scales.y")
-    assert scale["max"] - scale["min"] > 1
+    yield page
+    assert page.complaints == []
     page.close()
+
+
+def test_what_differs_by_rounding_only_is_drawn_flat(odd: Page):
+    plot_middle(odd, "flat")
+    scale = odd.js("companionPage.page.plots.find('flat').plot.scales.y")
+    assert scale["max"] - scale["min"] > 1
+
+
+def test_a_spike_of_one_sample_is_drawn_however_many_there_are(odd: Page):
+    plot_middle(odd, "spike")
+    drawn = odd.js("companionPage.page.plots.find('spike').plot.data")
+    assert len(drawn[0]) < 4000
+    assert max(v for v in drawn[1] if v is not None) == 5
+    assert None in drawn[1]
 
 
 def test_a_page_whose_data_are_broken_says_so(browser: Browser, report, tmp_path):
@@ -461,24 +488,31 @@ def test_ten_minutes_of_thirty_series_are_there_in_a_second_and_a_half_from_ten_
     assert min(took) < 1500
 
 
-def test_a_spike_of_one_sample_is_drawn_however_many_there_are(browser: Browser, tmp_path):
-    count = 45_000
-    values = np.zeros(count)
-    values[31_234] = 5.0
-    values[100] = np.nan
-    plots = (contract.Plot("p", "tracking", "p", "m", (contract.Series("a", np.arange(count) / 75, values),)),)
-    write_page(
-        contract.Report(
-            contract.Header("spike", duration_s=600.0), contract.Scene(contract.Track([], [], [], [])), plots
-        ).to_json(),
-        tmp_path / "spike.html",
+def test_no_word_in_the_scene_stands_over_another(opened):
+    for view in ("3D", "top"):
+        opened.js(f"companionPage.page.scene.setView('{view}')")
+        opened.settle()
+        seen = "[...document.querySelectorAll('.tag')].filter((t) => !t.hidden)"
+        boxes = opened.js(f"{seen}.map((t) => t.getBoundingClientRect().toJSON())")
+        assert len(boxes) >= 8
+        for k, a in enumerate(boxes):
+            for b in boxes[:k]:
+                beside = a["right"] <= b["left"] + 0.5 or b["right"] <= a["left"] + 0.5
+                assert beside or a["bottom"] <= b["top"] + 0.5 or b["bottom"] <= a["top"] + 0.5
+
+
+def test_words_in_narrow_tables_stay_whole(browser: Browser, tmp_path):
+    rows = [["autopilot rx", "1/1", 10_294, 0, 0.0], ["autopilot tx", "1/191", 786, 0, 0.0]]
+    heads = ("link", "sender", "packets", "missing by sequence", "missing [%]")
+    data = contract.Report(
+        contract.Header("t", ok=False, checks=(contract.Check("min_clearance_m", 0.538123456, ">= 2", False),)),
+        contract.Scene(contract.Track([], [], [], [])),
+        tables=(contract.Table("link", "Senders", heads, rows),),
     )
-    page = browser.page((tmp_path / "spike.html").as_uri())
+    write_page(data.to_json(), tmp_path / "narrow.html")
+    page = browser.page((tmp_path / "narrow.html").as_uri(), 390, 844, touch=True)
     page.until("window.companionPage?.ready")
-    plot_middle(page, "p")
-    drawn = page.js("companionPage.page.plots.find('p').plot.data")
-    assert len(drawn[0]) < 4000
-    assert max(v for v in drawn[1] if v is not None) == 5
-    assert None in drawn[1]
-    assert page.complaints == []
+    assert page.box("[data-table=Senders] tbody tr")[3] < 50  # two lines at most
+    assert page.js("document.documentElement.scrollWidth") == 390
+    assert page.js("document.querySelector('.failure').textContent") == "min clearance [m]: 0.5381, expected ≥ 2"
     page.close()
