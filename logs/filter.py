@@ -1,7 +1,7 @@
 """A smaller recording made of another: the messages wanted, byte for byte, with their times, ticks and order.
 
 Tables and attachments come along; the table `filter` says what was wanted and of which file. It opens and replays as
-any recording; it cannot be run again, since ticks are no longer whole, and a re-run says so.
+any recording. It can be run again if it begins with the flight and every topic of the seam is in it (`SEAM`).
 """
 
 import json
@@ -13,11 +13,11 @@ from logs.container import Container
 from logs.errors import RecordingError
 from logs.export import Exported, begun, unfinished
 from logs.parts import PART
-from logs.reader import RECOVERY, ChannelInfo, Recording
+from logs.reader import FILTER, RECOVERY, ChannelInfo, Recording
 from logs.selection import Selection, nothing_left, selected
 
-FILTER = "filter"
-"""Name of the table."""
+SEAM = ("/mavlink/raw/*", "/companion/*")
+"""Topics without which a recording cannot be run again."""
 
 
 def filtered(recording: Recording, path: Path, wanted: Selection, force: bool = False) -> Exported:

@@ -32,8 +32,8 @@ _RECORD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
 _MAX_CHUNK = 256 * 1024 * 1024  # a chunk that claims to be larger is damage; ours end at 1 MiB
 
-RECOVERY = "recovery"
-"""Name of the table that says a file was recovered."""
+RECOVERY, FILTER = "recovery", "filter"
+"""Names of the tables that say a file was recovered, or filtered from another."""
 
 Order = Literal["file", "time"]
 
@@ -111,6 +111,17 @@ class Recording:
     def recovered(self) -> bool:
         """Whether its end was made anew (`logs.recovery`): then its last tick may be cut off, complete as it is."""
         return RECOVERY in self.metadata
+
+    @property
+    def may_lack(self) -> int:
+        """Of how many ticks at its end a part may be missing, though nothing was lost before.
+
+        Of one that ends early the last; of one that was filtered the last three: what one tick sends and the next takes
+        in may be on both sides of the time where it ends.
+        """
+        if FILTER in self.metadata:
+            return 3
+        return int(self.recovered or not self.complete)
 
     @property
     def gaps(self) -> tuple[str, ...]:

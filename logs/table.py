@@ -40,13 +40,32 @@ class RecordedTick:
 def ticks(recording: Recording) -> Iterator[RecordedTick]:
     """The ticks of a recording, in order.
 
-    Of a recording cut short, recovered or not, the last tick is left out unless everything that belongs to it is there.
+    Of a recording that ends early the last ticks are left out unless all that belongs to them is there
+    (`Recording.may_lack`).
 
     Raises
     ------
     RecordingError    Ticks are missing, mixed up, or lack entries (the recorder dropped some): such a recording can
         be looked at, but not run again.
     """
+    may_lack = recording.may_lack
+    lacking: RecordingError | None = None
+    for row in _rows(recording):
+        if lacking is None:
+            try:
+                checked = _checked(recording, row)
+            except RecordingError as error:
+                lacking = error
+            else:
+                yield checked
+                continue
+        may_lack -= 1
+        if may_lack < 0:
+            raise lacking
+
+
+def _rows(recording: Recording) -> Iterator[RecordedTick]:
+    """The ticks as they are."""
     row: RecordedTick | None = None
     expected = 0
     for message in recording.messages():
@@ -58,7 +77,7 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
             continue
         if row is None or message.tick != row.index:
             if row is not None:
-                yield _checked(recording, row)
+                yield row
             if message.tick != expected:
                 raise RecordingError(recording.path, f"tick {message.tick} follows where tick {expected} should be")
             row = RecordedTick(message.tick, message.publish_time_ns // 1000)
@@ -70,13 +89,7 @@ def ticks(recording: Recording) -> Iterator[RecordedTick]:
         else:
             row.outputs.append((message.log_time_ns, entry))
     if row is not None:
-        try:
-            last = _checked(recording, row)
-        except RecordingError:
-            if recording.complete and not recording.recovered:
-                raise
-        else:
-            yield last
+        yield row
 
 
 def inputs_digest(inputs: Iterable[Entry]) -> int:

@@ -1,7 +1,7 @@
 """A recording again: its inputs into a fresh core, tick by tick, and every output held against the recorded one."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,9 @@ from companion.drivers.tick import Tick
 from companion.drivers.worldfiles import recorded_mission
 from companion.errors import RerunError
 from logs.compare import Comparison, Output, compare
-from logs.reader import Recording
+from logs.errors import RecordingError
+from logs.filter import SEAM
+from logs.reader import FILTER, Recording
 from logs.table import RecordedTick, ticks
 from wire.datagram import Datagram
 
@@ -70,7 +72,7 @@ def rerun(
     recorded: list[Output] = []
     produced: list[Output] = []
     count, first_us, last_us = 0, 0, 0
-    for row in ticks(recording):
+    for row in _ticks(recording):
         tick = ticked(companion, row)
         inputs, outputs = tick.inputs, tick.outputs
         assert row.declared is not None  # `ticks` yields no row without it
@@ -81,7 +83,21 @@ def rerun(
         progress(tick)
         first_us = row.now_us if count == 0 else first_us
         last_us, count = row.now_us, count + 1
+    if not count:
+        raise RerunError(f"{recording.path}: holds no whole tick, nothing to run again")
     return Rerun(companion, count, (last_us - first_us) / 1e6, compare(recorded, produced))
+
+
+def _ticks(recording: Recording) -> Iterator[RecordedTick]:
+    """The recorded ticks; of a filtered recording that lacks some it is told what a filter must keep."""
+    try:
+        yield from ticks(recording)
+    except RecordingError as error:
+        if FILTER not in recording.metadata:
+            raise
+        kept = " ".join(f"--topic '{topic}'" for topic in SEAM)
+        told = f"filtered from {recording.metadata[FILTER].get('of')} without what a re-run needs ({error.reason})"
+        raise RerunError(f"{recording.path}: {told}; filter with {kept} and no --start") from error
 
 
 def ticked(companion: Companion, row: RecordedTick) -> Tick:

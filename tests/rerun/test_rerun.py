@@ -15,7 +15,9 @@ from companion.cli.simulate import simulate_mission
 from companion.drivers.changes import changes_of
 from companion.drivers.rerun import rerun
 from companion.errors import MissionError, RerunError
+from logs.filter import SEAM, filtered
 from logs.reader import Recording
+from logs.selection import Selection
 
 
 def test_the_same_seed_gives_a_byte_identical_recording_and_another_seed_does_not(recording, tmp_path, capsys):
@@ -137,6 +139,22 @@ def test_a_file_that_is_no_recording_of_a_companion_is_one_line(tmp_path):
         writer.finish()
     with pytest.raises(RerunError, match="no mission and configuration"):
         rerun_log(target, as_json=False)
+
+
+def test_a_filtered_recording_that_keeps_the_seam_from_the_start_runs_again_bit_for_bit(recording, tmp_path):
+    wanted = Selection(topics=SEAM, duration_s=5.003)
+    outcome = rerun(Recording.open(filtered(Recording.open(recording), tmp_path / "small.mcap", wanted).path))
+    assert outcome.comparison.first is None
+    assert outcome.ticks == 250
+
+
+@pytest.mark.parametrize("wanted", [{"names": ("ATTITUDE",)}, {"start_s": 2.0}, {"topics": ("/mavlink/raw/*/rx",)}])
+def test_a_filtered_recording_without_what_a_rerun_needs_is_told_what_to_keep(recording, tmp_path, wanted):
+    small = filtered(Recording.open(recording), tmp_path / "small.mcap", Selection(**wanted))
+    with pytest.raises(
+        RerunError, match=r"filtered from flight.mcap without .*; filter with --topic '/mavlink/raw/\*'"
+    ):
+        rerun(Recording.open(small.path))
 
 
 def test_what_a_changed_limit_changes_is_listed_by_field_with_when_first_and_how_much_at_most(recording, capsys):

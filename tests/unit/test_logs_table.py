@@ -110,3 +110,20 @@ def test_of_a_recording_cut_short_the_whole_ticks_are_given(tmp_path: Path) -> N
         rows = list(ticks(Recording.open(cut)))
         assert rows == everything[: len(rows)]
         assert rows
+
+
+def test_the_end_of_a_filtered_recording_may_be_cut_within_a_tick_or_two_and_no_more(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    with Recorder(path, metadata={"filter": {"of": "whole.mcap"}}, threaded=False) as recorder:
+        for index in range(4):
+            write_tick(recorder, index, [LAND], [NOTE])
+        write_tick(recorder, 4, [LAND], [NOTE, NOTE], forget=1)
+        write_tick(recorder, 5, [LAND], [NOTE])
+    assert [row.index for row in ticks(Recording.open(path))] == [0, 1, 2, 3]
+    path = tmp_path / "b.mcap"
+    with Recorder(path, metadata={"filter": {"of": "whole.mcap"}}, threaded=False) as recorder:
+        write_tick(recorder, 0, [LAND], [NOTE, NOTE], forget=1)
+        for index in range(1, 9):
+            write_tick(recorder, index, [LAND], [NOTE])
+    with pytest.raises(RecordingError, match="tick 0 has 1 of 1 inputs and 1 of 2 outputs"):
+        list(ticks(Recording.open(path)))
