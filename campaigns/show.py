@@ -5,6 +5,7 @@ no axis, they are what the flights of a group repeat with.
 """
 
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -139,9 +140,7 @@ def _numbers(values: Sequence[float], unit: str = "") -> list[str]:
     return [f"{edges[k]:.3g} to {edges[k + 1]:.3g}{unit}" for k in bins]
 
 
-def _natural(text: str) -> tuple[int, float, str]:
-    """Numbers by their size and before words."""
-    try:
-        return 0, float(text.split()[0].rstrip(",")), text
-    except (ValueError, IndexError):
-        return 1, 0.0, text
+def _natural(text: str) -> list[tuple[float, str]]:
+    """Sorts as people do, numbers in a text by their size."""
+    parts = re.split(r"((?:(?<!\w)-)?\d+(?:\.\d+)?)", text)
+    return [(float(part), "") if k % 2 else (math.inf, part) for k, part in enumerate(parts) if part]

@@ -82,6 +82,7 @@ def show_rows(
         if not by and not _fits(tables[0], out.width):
             tables = [groups(flights, [axis]) for axis in axes]
         out.print(_table(tables))
+        out.print(f"[dim]{LEGEND}[/dim]")
     _tell_failures(failures, folder, out)
     for picture in pictures:
         out.print(f"[dim]{show.plain(str(picture))}[/dim]", soft_wrap=True)
@@ -114,8 +115,7 @@ def _head(folder: Path, rows: Sequence[Row], flights: Sequence[Row], planned: in
 def _table(tables: Sequence[Sequence[Group]]) -> Table:
     """One table: a section for each of them."""
     several = len(tables) > 1
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), show_edge=False, caption=LEGEND)
-    table.caption_justify = "left"
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), show_edge=False)
     names = ["axis", "value"] if several else list(tables[0][0].values)
     for name in names:
         table.add_column(show.plain(name), overflow="fold", min_width=4)
