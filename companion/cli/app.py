@@ -59,7 +59,8 @@ def demo(
     json: Json = False,
 ) -> None:
     """Fly the L-shaped wall with the bundled vehicle, over UDP, recorded. Needs nothing else."""
-    from companion.cli.fly import fly_demo, rotation_of
+    from companion.cli.fly import fly_demo
+    from logs.parts import rotation_of
 
     rotation = rotation_of(rotate_size, rotate_time)
     raise typer.Exit(fly_demo(record, out or [], seed, autopilot, json, rotation, live))
@@ -89,7 +90,8 @@ def fly(
     json: Json = False,
 ) -> None:
     """Fly a mission on a vehicle behind a MAVLink/UDP endpoint, or one of several `vehicles` on bundled ones."""
-    from companion.cli.fly import fly_mission, rotation_of
+    from companion.cli.fly import fly_mission
+    from logs.parts import rotation_of
 
     rotation = rotation_of(rotate_size, rotate_time)
     outs = out or []
@@ -115,12 +117,16 @@ def simulate(
     seed: Seed = 1,
     record: Annotated[Path | None, typer.Option("--record", metavar="FILE", help="Keep the recording here.")] = None,
     autopilot: Autopilot = "px4",
+    rotate_size: RotateSize = None,
+    rotate_time: RotateTime = None,
     json: Json = False,
 ) -> None:
     """Fly a mission in lockstep: same cores, no sockets, as fast as the CPU allows, repeatable to the byte."""
     from companion.cli.simulate import simulate_mission
+    from logs.parts import rotation_of
 
-    raise typer.Exit(simulate_mission(mission, seed, record, autopilot, json))
+    rotation = rotation_of(rotate_size, rotate_time)
+    raise typer.Exit(simulate_mission(mission, seed, record, autopilot, json, rotation))
 
 
 @app.command("test")
@@ -266,6 +272,21 @@ def tune(
     from companion.cli.tune import tune_gains
 
     raise typer.Exit(tune_gains(spec, method, jobs, out, resume, json))
+
+
+@app.command()
+def paper(
+    quick: Annotated[bool, typer.Option("--quick", help="All of it in minutes, with fewer worlds and runs.")] = False,
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", help="Folder of the page, its pictures and the work that is kept.")
+    ] = Path("paper"),
+    jobs: Annotated[int, typer.Option("-j", "--jobs", help="Processes.", min=1, max=64)] = 2,
+    json: Json = False,
+) -> None:
+    """Make the paper's tables and figures again, each claim with a verdict. Goes on where it was interrupted."""
+    from companion.cli.paper import make
+
+    raise typer.Exit(make(quick, out, jobs, json))
 
 
 @app.command()
