@@ -16,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from companion.errors import ConfigError
 from companion.fleet.member import FLEET_LINK
 from companion.yamlfile import read_yaml
-from logs.parts import Rotation
+from logs.parts import Rotation, rotation_of
 from wire.endpoint import Endpoint
 from wire.errors import EndpointError
 
@@ -118,9 +118,7 @@ class ServiceConfig(BaseModel):
 
     def rotation(self) -> Rotation | None:
         """When a part of a recording ends."""
-        if self.rotate_mb is None and self.rotate_s is None:
-            return None
-        return Rotation(None if self.rotate_mb is None else round(self.rotate_mb * 1e6), self.rotate_s)
+        return rotation_of(self.rotate_mb, self.rotate_s)
 
     def page(self) -> tuple[str, int] | None:
         """Where the page is served."""

@@ -28,6 +28,8 @@ from fakevehicle.scenario import Scenario, load_scenario
 from fakevehicle.vehicle import TICK_US, Vehicle
 from fakevehicle.vocabulary import FloatArray, Geodetic
 from logs.errors import RecordingError
+from logs.parts import Rotation, rotation_of
+from logs.recovery import recover_unfinished
 from wire.endpoint import Endpoint
 from wire.errors import EndpointError, LinkError
 from wire.udp import UdpLink
@@ -98,6 +100,12 @@ def fly(
     record_sensors: Annotated[
         bool, typer.Option("--record-sensors", help="With --record: what the estimator takes, for companion rerun.")
     ] = False,
+    rotate_size: Annotated[
+        float | None, typer.Option(metavar="MB", help="With --record: begin a new part of this size.", min=0.1)
+    ] = None,
+    rotate_time: Annotated[
+        float | None, typer.Option(metavar="S", help="With --record: begin a new part this often.", min=1.0)
+    ] = None,
     until_stdin_ends: Annotated[
         bool, typer.Option("--until-stdin-ends", help="End when standard input does: with the process that began it.")
     ] = False,
@@ -120,8 +128,13 @@ def fly(
             raise ValueError(f"--instance {instance}: expected 0 to {255 - count}")
         if not SLOWEST <= speed <= FASTEST:
             raise ValueError(f"--speed {speed:g}: expected {SLOWEST:g} to {FASTEST:g}")
-        if record_sensors and record is None:
-            raise ValueError("--record-sensors: expected --record FOLDER with it")
+        for option, given in (
+            ("--record-sensors", record_sensors),
+            ("--rotate-size", rotate_size is not None),
+            ("--rotate-time", rotate_time is not None),
+        ):
+            if given and record is None:
+                raise ValueError(f"{option}: expected --record FOLDER with it")
         place, heading = _home(home)
         kind = _autopilot(autopilot)
         parameters, loaded = _parameters(params or [], param or [], kind)
@@ -148,7 +161,7 @@ def fly(
                 world=events.world,
             )
             folder = record if record is None or count == 1 else record / str(config.system_id)
-            crew.append(_Plan(config, parameters, plans, folder, record_sensors))
+            crew.append(_Plan(config, parameters, plans, folder, record_sensors, rotation_of(rotate_size, rotate_time)))
     except AirframeError as error:
         _fail(f"--airframe {airframe}: {error}", 2)
     except (ValueError, EndpointError, ScenarioError, ParameterFileError) as error:
@@ -180,6 +193,7 @@ class _Plan:
     links: list[LinkPlan]
     folder: Path | None
     sensors: bool
+    rotation: Rotation | None
 
 
 def _await_end_of_stdin(signals: list[int]) -> None:
@@ -229,7 +243,14 @@ def _seat(one: _Plan, links: dict[str, UdpLink], started_s: float, name: str) ->
     files = log = None
     if one.folder is not None:
         files = Folder(one.folder)
-        log = FlightLog(one.folder, one.config, one.parameters, started_unix_s=started_s, sensors=one.sensors)
+        for recovered in recover_unfinished(one.folder):
+            _say(str(recovered))
+        log = FlightLog(
+            *(one.folder, one.config, one.parameters),
+            started_unix_s=started_s,
+            sensors=one.sensors,
+            rotation=one.rotation,
+        )
     vehicle = Vehicle(one.config, one.parameters, files)
     shown = (vehicle.flying.mode, vehicle.flying.armed)
 

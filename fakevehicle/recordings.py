@@ -18,13 +18,19 @@ from fakevehicle.sensorlog import SensorLog
 from fakevehicle.vehicle import TICK_US, Vehicle
 from fakevehicle.vocabulary import Truth
 from logs import schema
+from logs.container import Attachment
 from logs.errors import RecordingError
+from logs.parameters import params_file
+from logs.parts import Rotation
 from logs.recorder import Recorder
+from logs.rows import shortest
 from wire.datagram import Datagram
 
 TRUTH_US = 20_000
 """The truth is recorded this often."""
 SUFFIX = ".mcap"
+AUTOPILOT = 1
+"""Component id (MAV_COMP_ID_AUTOPILOT1)."""
 
 
 class Folder:
@@ -96,6 +102,7 @@ class FlightLog:
     started_unix_s : names the file [s].
     threaded : a thread writes; False: the caller does, and the same flight gives the same bytes.
     sensors : record what the estimator takes and makes of it too, 25 kB a second.
+    rotation : when a part of the recording ends.
 
     Raises
     ------
@@ -111,6 +118,7 @@ class FlightLog:
         started_unix_s: float,
         threaded: bool = True,
         sensors: bool = False,
+        rotation: Rotation | None = None,
     ) -> None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -122,9 +130,10 @@ class FlightLog:
             metadata={
                 "vehicle": {"config": json.dumps(asdict(config), default=_plain), "parameters": json.dumps(parameters)}
             },
+            attachments=[parameters_of(Vehicle(config, parameters))],
             threaded=threaded,
+            rotation=rotation,
         )
-
         self._now_us = 0
         self._sensors = SensorLog(self._keep, TICK_US) if sensors else None
 
@@ -167,6 +176,13 @@ class FlightLog:
         if self._sensors is not None:
             self._sensors.flush()
         self._recorder.close()
+
+
+def parameters_of(vehicle: Vehicle) -> Attachment:
+    """All parameters of a vehicle, as they stand at the start of a recording."""
+    told, system = vehicle.told_parameters, vehicle.config.system_id
+    values = {(system, AUTOPILOT, name): (shortest(told[name]), told.describe(name).type.value) for name in told}
+    return params_file(values)
 
 
 def to_record(truth: Truth) -> schema.Truth:

@@ -170,7 +170,7 @@ class Vehicle:
         self._commands = Commands(self._supervisor, self._outbox, self._streams, self._places, flavour)
         self._setpoints = Setpoints(self._supervisor, self._places, self._warn)
         recordings = self._files
-        named = flavour.named(self.parameters)
+        named = self._named = flavour.named(self.parameters)
         metadata = Metadata(named, READ_ONLY, self._now)
         tree = Tree(
             {PARAM_FILE: lambda query: pack(named, query), **metadata.files}, dict.fromkeys(LOG_FOLDERS, recordings)
@@ -231,6 +231,11 @@ class Vehicle:
         self._told: tuple[object, ...] | None = None
         self._told_home: object = None
         self._now_us: int | None = None
+
+    @property
+    def told_parameters(self) -> ParameterSet:
+        """Its parameters under the names and in the units that it tells them by."""
+        return self._named
 
     @property
     def truth(self) -> Truth:

@@ -13,17 +13,16 @@ from difflib import SequenceMatcher
 from math import isinf, isnan
 from typing import Any
 
+from logs.parameters import ATTACHMENT, Key, ToldParameters
 from logs.reader import Recording
 from logs.rows import Row, flat, row
 from logs.selection import Selection, selected
 from wire.dialect import mavlink
 
+ALL = Selection()
 MOST_EVENTS = 5_000
 """Of each recording; what comes after is not compared."""
 _FLOAT = struct.Struct("<f")
-_INTEGERS: dict[int, str] = {1: "<Bxxx", 2: "<bxxx", 3: "<Hxx", 4: "<hxx", 5: "<I", 6: "<i"}  # MAV_PARAM_TYPE
-
-ParameterKey = tuple[int, int, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +53,14 @@ class Diff:
 
     Attributes
     ----------
-    parameters : by (system, component, name), the last value of each; None where one has none.
+    parameters : by (system, component, name), the last value of each, told or attached; None where one has none.
     events : in order.
     counts : messages by topic, where the numbers differ.
     fields : by topic and field, the earliest first.
     compared, equal : pairs of messages.
     """
 
-    parameters: Mapping[ParameterKey, tuple[float | None, float | None]]
+    parameters: Mapping[Key, tuple[float | None, float | None]]
     events: tuple[EventDifference, ...]
     counts: Mapping[str, tuple[int, int]]
     fields: tuple[FieldDifference, ...]
@@ -91,7 +90,7 @@ def diff(
 
     Parameters
     ----------
-    wanted : compare these messages only (parameters and events as well).
+    wanted : compare these messages only, and of parameters and events those in them.
     ignore : fields not compared, as ``time_boot_ms`` or ``ATTITUDE.time_boot_ms``.
     tolerance : numbers that differ by no more than this, absolutely or relative to the greater one, are the same.
 
@@ -99,7 +98,7 @@ def diff(
     ------
     RecordingError    As `Recording.messages` and `Recording.decode`.
     """
-    wanted = wanted or Selection()
+    wanted = wanted or ALL
     one, other = _Side(left, wanted), _Side(right, wanted)
     found = _Fields(frozenset(ignore), tolerance)
     both = one.counts.keys() & other.counts.keys()
@@ -127,11 +126,11 @@ class _Side:
     def __init__(self, recording: Recording, wanted: Selection) -> None:
         self._recording, self._wanted = recording, wanted
         self.counts: Counter[str] = Counter()
-        self.parameters: dict[ParameterKey, float] = {}
         self.events: list[tuple[int, str]] = []
         self.start_ns = 0
-        parameters: dict[ParameterKey, tuple[float, int]] = {}
-        bytewise: set[int] = set()
+        told, imported = ToldParameters(), dict[Key, float]()
+        if attached := recording.attachments.get(ATTACHMENT) if wanted == ALL else None:
+            told.read(attached.data)
         modes: dict[tuple[int | None, int | None], int] = {}
         for message in selected(recording.messages(), wanted):
             if not self.counts and not self.start_ns:
@@ -146,13 +145,13 @@ class _Side:
             values = item.values
             if name == "PARAM_VALUE" and item.system is not None and item.component is not None:
                 key = (item.system, item.component, values["param_id"])
-                parameters[key] = values["param_value"], values["param_type"]
+                told.told(key, _FLOAT.pack(values["param_value"]), values["param_type"])
             elif name in _IMPORTED:
                 key_field, value_field = _IMPORTED[name]
-                parameters[0, 0, values[key_field]] = values[value_field], 0
+                imported[0, 0, values[key_field]] = values[value_field]
             elif name == "HEARTBEAT":
                 if values["autopilot"] == mavlink.MAV_AUTOPILOT_PX4 and item.system is not None:
-                    bytewise.add(item.system)
+                    told.is_px4(item.system)
                 sender = (item.system, item.component)
                 mode = values["custom_mode"]
                 if values["autopilot"] != mavlink.MAV_AUTOPILOT_INVALID and modes.get(sender) != mode:
@@ -160,9 +159,7 @@ class _Side:
                     self._event(item, f"mode of {item.system}/{item.component}: {mode}")
             else:
                 self._event(item, _EVENTS[name].format(system=item.system, component=item.component, **values))
-        for key, (value, kind) in parameters.items():
-            unpack = _INTEGERS.get(kind) if key[0] in bytewise else None
-            self.parameters[key] = value if unpack is None else struct.unpack(unpack, _FLOAT.pack(value))[0]
+        self.parameters = told.values() | imported
 
     def rows(self, topics: Collection[str]) -> Iterator[Row]:
         for message in selected(self._recording.messages(), self._wanted):

@@ -36,6 +36,13 @@ class Rotation:
                 raise ValueError(f"found {value}, expected more than zero")
 
 
+def rotation_of(size_mb: float | None, seconds: float | None) -> Rotation | None:
+    """When a part ends, as people say it; None: never."""
+    if size_mb is None and seconds is None:
+        return None
+    return Rotation(None if size_mb is None else round(size_mb * 1e6), seconds)
+
+
 @dataclass(frozen=True, slots=True)
 class Room:
     """Bounds on the free space of the disk [bytes], and as shares of the disk where that is small.
@@ -105,6 +112,10 @@ class Parts:
     def number(self) -> int:
         """Of the newest part, from 1."""
         return len(self.paths)
+
+    def attach(self, attachment: Attachment) -> None:
+        """Put a file in place of the one of its name, or beside the others, from the next part on."""
+        self._attachments = [*(a for a in self._attachments if a.name != attachment.name), attachment]
 
     def begin(self, why: str, gap: Gap | None = None) -> Container:
         """Open the next part.

@@ -31,6 +31,7 @@ from logs import schema
 from logs.container import Attachment, Direction
 from logs.errors import RecordingError
 from logs.mirrors import Mirror
+from logs.parameters import ATTACHMENT as PARAMETERS
 from logs.parts import MOST_PARTS, Gap, Parts, Room, Rotation
 from logs.scribe import Item, Scribe, TableItem
 from wire.datagram import Address
@@ -87,7 +88,8 @@ class Recorder:
     ----------
     path : the file to make; an existing one is never touched. Further parts stand beside it (`logs.parts`).
     metadata : named tables of strings, written first ("run": version, seed, endpoints ...).
-    attachments : files written first (mission ...).
+    attachments : files written first (mission ...). Parameters among them (`logs.parameters`) are kept up to date:
+        further parts begin with what has been told since, and every part in which some were told ends with it.
     threaded : True: a thread frames, transcodes and writes, so the caller only pays for a queue, and the file is
         flushed every `FLUSH_S` of real time. False: everything at once in the caller, flushed every `FLUSH_S` of log
         time; the same calls then give a byte-identical file.
@@ -123,6 +125,10 @@ class Recorder:
         self._parts = Parts(path, metadata, attachments, numbered=rotation is not None)
         assert self._parts.container is not None
         self._container, self._scribe = self._parts.container, Scribe(self._parts.container)
+        for attachment in attachments:
+            if attachment.name == PARAMETERS:
+                self._scribe.parameters.read(attachment.data)
+        self._attached = 0  # changes of the parameters that the part knows
         self._closed = False
         self._dropped_raw = 0
         self._last = (0, 0, 0)  # log time, now and tick of the newest item
@@ -390,8 +396,12 @@ class Recorder:
                 self._scribe.message((*self._last, schema.TOPICS[schema.Loss], schema.Loss(name, total)))
 
     def _finish(self) -> None:
-        """Write the losses and everything a reader seeks by."""
+        """Write the losses, parameters that were told meanwhile, and everything a reader seeks by."""
         self._record_losses()
+        parameters = self._scribe.parameters
+        if parameters.changes != self._attached:
+            told = parameters.attachment()
+            self._container.add_attachment(told.name, told.media_type, told.data)
         dropped = str(self._dropped_raw + self._overflowed)
         self._container.add_metadata("recorder", {"dropped_raw": dropped, **self._scribe.table()})
         self._container.finish()
@@ -419,6 +429,10 @@ class Recorder:
         gap = self._gap
         if gap is not None:
             gap = Gap(gap.reason, gap.from_ns, self._last[0], self._dropped_raw + self._overflowed - gap.missing)
+        parameters = self._scribe.parameters
+        if parameters.changes != self._attached:
+            self._parts.attach(parameters.attachment())
+            self._attached = parameters.changes
         try:
             self._container = self._parts.begin(why, gap)
         except OSError as error:

@@ -9,6 +9,7 @@ from logs import schema
 from logs.channels import Channels
 from logs.container import Container, Direction
 from logs.mirrors import Mirror, Mirrors
+from logs.parameters import PARAMETER_MESSAGES, ToldParameters
 from logs.secrets import masked
 from wire.datagram import Address
 from wire.framing import Framer
@@ -28,7 +29,7 @@ class Scribe:
     ----------
     rx, tx : datagrams written, by link. decoded, messages : packets and records written. made : mirrors, and losses.
     dropped_decoded : packets not decoded, mirrors left out. failed_mirrors : those of which nothing could be made.
-    masked : datagrams whose key was masked.
+    masked : datagrams whose key was masked. parameters : what vehicles told of theirs.
     """
 
     def __init__(self, container: Container) -> None:
@@ -39,6 +40,7 @@ class Scribe:
         self._seen: set[bytes] = set()  # datagrams decoded in tick `_seen_tick`
         self._seen_tick = -1
         self._mirrors = Mirrors()
+        self.parameters = ToldParameters()
         self.failed_mirrors = 0
         self.begin(container)
 
@@ -71,6 +73,8 @@ class Scribe:
             framer = self._framers[link, direction] = Framer()
         packets, known = framer.packets(data), self._channels.packets
         for packet in packets if not again else ():
+            if packet.message_id in PARAMETER_MESSAGES:
+                self.parameters.heard(packet.message_id, packet.system_id, packet.component_id, packet.payload)
             key = packet.message_id << 16 | packet.system_id << 8 | packet.component_id
             target = known.get(key)
             if target is None:

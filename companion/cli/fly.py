@@ -33,7 +33,8 @@ def fly_demo(
     live: int | None = None,
 ) -> int:
     """The embedded default: the bundled vehicle as its own process, on a port the system chooses."""
-    from companion.cli.vehicle import running_vehicle
+    from companion.cli.vehicle import build_vehicle, running_vehicle
+    from fakevehicle.recordings import parameters_of
 
     data = (resources.files("missions") / "l_shape.yaml").read_bytes()
     mission = parse_mission(data, "missions/l_shape.yaml")
@@ -43,9 +44,14 @@ def fly_demo(
     endpoints = {VEHICLE_LINK: Endpoint("udpin", host, port)} | ground_endpoints(outs)
     config = CompanionConfig(seed=seed, ground_links=tuple(endpoints)[1:])
     operator, url = Operator(), f"udpout:{host}:{port}"
+    known = [parameters_of(build_vehicle(mission, seed, autopilot))]
     with operator.listening(), running_vehicle(mission, url, seed, vehicle_log(file), autopilot) as vehicle:
         flown = fly_recorded(
-            mission, data, endpoints, file, config, operator, rotation=rotation, live=live, watch=vehicle
+            *(mission, data, endpoints, file, config, operator),
+            rotation=rotation,
+            known=known,
+            live=live,
+            watch=vehicle,
         )
     return flown.tell(as_json, page_beside(flown.recording))
 
@@ -106,13 +112,6 @@ def page_beside(recording: Path) -> Path | None:
         show.console().print(show.plain(str(error)), soft_wrap=True)
         return None
     return page
-
-
-def rotation_of(size_mb: float | None, seconds: float | None) -> Rotation | None:
-    """When a part of a recording ends, as a person says it; None: never."""
-    if size_mb is None and seconds is None:
-        return None
-    return Rotation(None if size_mb is None else round(size_mb * 1e6), seconds)
 
 
 def ground_endpoints(outs: list[str]) -> dict[str, Endpoint]:

@@ -18,6 +18,8 @@ from companion.fleet.missions import Part
 from companion.phases import AIRBORNE
 from companion.verdict import FlightMeter, Verdict, judge
 from fakevehicle.config import Autopilot
+from fakevehicle.recordings import parameters_of
+from logs.parts import Rotation
 from logs.recorder import Recorder
 
 LIMIT_S = 300.0
@@ -51,6 +53,7 @@ def fly_many(
     share: bool = True,
     loss: float = 0.0,
     record: Path | None = None,
+    rotation: Rotation | None = None,
     limit_s: float = LIMIT_S,
     stop: Callable[[], bool] = lambda: False,
     taps: Callable[[Companion, FlightMeter], Sequence[Tap]] = lambda companion, meter: (),
@@ -62,7 +65,7 @@ def fly_many(
     seed : of the first vehicle; the others count up from it.
     share : tell each other; False: each flies as if it were alone.
     loss : part of what they tell that does not arrive, 0 to 1.
-    record : a folder for a recording of each.
+    record : a folder for a recording of each. rotation : when a part of one ends.
     taps : more that look on at each.
     """
     companions, vehicles, meters, pairs = [], [], [], []
@@ -76,7 +79,9 @@ def fly_many(
             if record is not None:
                 record.mkdir(parents=True, exist_ok=True)
                 file = record / f"{k + 1}.mcap"
-                recorder = stack.enter_context(Recorder(file, threaded=False, **header(companion, part.data)))
+                start = header(companion, part.data)
+                start["attachments"].append(parameters_of(vehicle))
+                recorder = stack.enter_context(Recorder(file, threaded=False, rotation=rotation, **start))
                 own.append(RecordingTap(companion, recorder))
                 recorders.append(recorder)
             pairs.append(Pair(companion, vehicle, LINK, InlinePlanning(part.mission.planner_world()), own))

@@ -47,7 +47,7 @@ def test_the_plain_mcap_reader_and_its_protobuf_decoder_open_the_recording(recor
                 [c.topic for c in summary.channels.values() if c.message_encoding == "protobuf"]
             )
         }
-        assert [a.name for a in reader.iter_attachments()] == ["mission.yaml"]
+        assert [a.name for a in reader.iter_attachments()] == ["mission.yaml", "vehicle.params"]
     assert {"/mavlink/1/1/ATTITUDE", "/mavlink/1/191/SET_POSITION_TARGET_LOCAL_NED"} <= decoded.keys()
     assert decoded["/companion/plan_ready"].certified
     assert sum(summary.statistics.channel_message_counts.values()) == summary.statistics.message_count

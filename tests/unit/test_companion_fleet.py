@@ -314,10 +314,14 @@ def test_two_that_swap_places_fly_round_each_other_and_alone_they_would_meet(tmp
 
 def test_a_mission_of_several_is_simulated_and_told_as_one_object(tmp_path: Path) -> None:
     (tmp_path / "two.yaml").write_text(TWO)
-    done = CliRunner().invoke(app, ["simulate", str(tmp_path / "two.yaml"), "--json"])
+    parts = ["--record", str(tmp_path / "flown"), "--rotate-time", "5"]
+    done = CliRunner().invoke(app, ["simulate", str(tmp_path / "two.yaml"), "--json", *parts])
     told = json.loads(done.stdout)
     assert (done.exit_code, told["ok"], [v["vehicle"] for v in told["vehicles"]]) == (0, True, ["a", "2"])
     assert told["separation_m"] > 0.6
+    flown = [Recording.open(tmp_path / "flown" / name) for name in ("1.mcap", "2.mcap")]
+    assert all(len(recording.paths) > 2 and recording.complete for recording in flown)
+    assert all(b"MC_ROLL_P" in recording.attachments["vehicle.params"].data for recording in flown)
 
 
 def test_one_companion_does_not_fly_several_vehicles(tmp_path: Path) -> None:
