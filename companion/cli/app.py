@@ -290,21 +290,6 @@ def paper(
 
 
 @app.command()
-def paper(
-    quick: Annotated[bool, typer.Option("--quick", help="All of it in minutes, with fewer worlds and runs.")] = False,
-    out: Annotated[
-        Path, typer.Option("--out", metavar="DIR", help="Folder of the page, its pictures and the work that is kept.")
-    ] = Path("paper"),
-    jobs: Annotated[int, typer.Option("-j", "--jobs", help="Processes.", min=1, max=64)] = 2,
-    json: Json = False,
-) -> None:
-    """Make the paper's tables and figures again, each claim with a verdict. Goes on where it was interrupted."""
-    from companion.cli.paper import make
-
-    raise typer.Exit(make(quick, out, jobs, json))
-
-
-@app.command()
 def report(
     log: LogFile,
     output: Annotated[
