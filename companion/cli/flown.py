@@ -17,7 +17,7 @@ from companion.core import Companion, CompanionConfig
 from companion.drivers.flight import fly_guarded
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.provenance import conclude
-from companion.drivers.recording import RecordingTap, header, socket_losses, total
+from companion.drivers.recording import RecordingTap, header, socket_losses, total, unix_clock
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.mission import Expect, Mission
@@ -106,7 +106,7 @@ def fly_recorded(
             raise CompanionError("stopped before the flight began")
         links = stack.enter_context(_open(endpoints))  # afresh: what came in meanwhile is old
         urls = {name: str(endpoint) for name, endpoint in endpoints.items()}
-        start = header(companion, data, endpoints=urls, clock={"epoch": "unix"})
+        start = header(companion, data, endpoints=urls, clock=unix_clock())
         start["attachments"] += known
         start |= {"rotation": rotation, "losses": socket_losses(links)}
         recorder = stack.enter_context(Recorder(file, threaded=True, **start))

@@ -5,6 +5,7 @@ arrival, what left with the moment it had left; both carry the tick's number (do
 """
 
 import json
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -200,6 +201,11 @@ def header(companion: Companion, mission_file: bytes, **more: Mapping[str, str])
             *world_attachments(companion.mission),
         ],
     }
+
+
+def unix_clock() -> dict[str, str]:
+    """Table `clock` of a flight in real time: Unix time, and how far ahead of the monotonic clock it is [ns]."""
+    return {"epoch": "unix", "ahead_of_monotonic_ns": str(time.time_ns() - time.monotonic_ns())}
 
 
 def total(counters: RecorderCounters) -> int:

@@ -21,7 +21,7 @@ from companion.drivers.flight import NothingPlanned, fly_guarded
 from companion.drivers.planning import WorkerPlanning
 from companion.drivers.provenance import conclude
 from companion.drivers.realtime import fly_realtime
-from companion.drivers.recording import RecordingTap, header, socket_losses
+from companion.drivers.recording import RecordingTap, header, socket_losses, unix_clock
 from companion.drivers.tick import Tap
 from companion.errors import CompanionError
 from companion.ground.station import GroundStation
@@ -177,7 +177,7 @@ class Service:
                     telling.say(Level.INFO, f"removed {removed} to make room")
             file = recording_file(self._config.record, mission)
             urls = {name: str(endpoint) for name, endpoint in self._endpoints.items()}
-            start = header(companion, ready.data, endpoints=urls, clock={"epoch": "unix"})
+            start = header(companion, ready.data, endpoints=urls, clock=unix_clock())
             start |= {"rotation": self._config.rotation(), "losses": socket_losses(telling.links)}
             recorder = stack.enter_context(Recorder(file, threaded=True, **start))
             recording = RecordingTap(companion, recorder, lambda text: telling.say(Level.WARNING, text))

@@ -4,6 +4,7 @@ import json
 import math
 import shutil
 import subprocess
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 
 from companion.core import Companion, CompanionConfig
 from companion.drivers.provenance import outcome_table, revision
-from companion.drivers.recording import header
+from companion.drivers.recording import header, unix_clock
 from companion.drivers.rerun import fresh_companion
 from companion.mission import Expect
 from companion.missionfile import parse_mission
@@ -125,6 +126,11 @@ def test_a_recording_holds_the_maps_that_its_mission_names_so_that_it_can_be_run
         (grid,) = again.mission.whole_world().obstacles
         assert np.array_equal(grid.occupied, companion.mission.whole_world().obstacles[0].occupied)
         assert again.config == companion.config
+
+
+def test_times_of_a_recording_can_be_set_against_what_the_machine_counts_from_its_start():
+    ahead_ns = int(unix_clock()["ahead_of_monotonic_ns"])
+    assert abs(time.monotonic_ns() + ahead_ns - time.time_ns()) < 50_000_000
 
 
 @pytest.mark.parametrize("head", [None, "rubbish", "ref: refs/heads/nowhere", "\xff"])
