@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from benchmarks.bench_search import CLAIMS, CONTENDERS, Spread, claims, measure, summary, table
+from benchmarks.bench_search import CONTENDERS, claims, measure, summary, table
+from campaigns.paper.printed import CLAIMS
+from campaigns.paper.spread import Spread
 from planner.search import BENCHMARKS
 
 
