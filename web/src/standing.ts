@@ -74,7 +74,7 @@ export function stand(json: SceneJson, { floor, reach }: Extent, layers: Layers,
   ball.position.copy(at);
   mark.add(ball, segments([at.x, floor.level, at.z, at.x, at.y, at.z], "warn", 0.7));
   const { element } = labels.add(`${number(least.clearance, 3)} m clear`, at, "least", "least");
-  element.title = `least clearance, at ${clock(least.t)}`;
+  element.title = `least clearance, at ${clock(least.t)}${json.movers.length ? "; of what moves, as great as it was taken to be" : ""}`;
   element.addEventListener("click", () => goTo(least.t));
 }
 

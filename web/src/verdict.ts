@@ -61,7 +61,7 @@ export class Verdict {
     const { facts } = this.header;
     if (!facts.length) return null;
     return h("figure.card.facts", h("figcaption", h("span.plot-title", "Flown with")),
-      h("dl", facts.map(([name, value]) => h("div", h("dt", words(name)), h("dd", typeof value === "number" ? number(value, 6) : cell(value))))));
+      h("dl", facts.map(([name, value]) => h("div", h("dt", words(name)), h("dd", ...(typeof value === "number" ? [number(value, 6)] : parted(cell(value))))))));
   }
 
   private loss(): HTMLElement | null {
@@ -85,6 +85,11 @@ function bound(value: unknown): string {
 /** Names of fields as people write them: duration_max_s is "duration max [s]". */
 function words(name: string): string {
   return name.replace(/_(m|s|ms|hz|deg|rad|m_s)$/, (_, unit: string) => ` [${{ hz: "Hz", deg: "°", m_s: "m/s" }[unit] ?? unit}]`).replaceAll("_", " ");
+}
+
+/** A name that may be long, such as a path, which a line may end in at its marks. */
+function parted(text: string): (string | Node)[] {
+  return text.split(/(?<=[/_-])/).flatMap((part) => [part, document.createElement("wbr")]);
 }
 
 function when(utc: string): string {
