@@ -360,7 +360,8 @@ def with_live_port(arguments: list[str]) -> list[str]:
 
 
 def _fail(text: str, code: int) -> NoReturn:
-    print(f"companion: {text}", file=sys.stderr)
+    shown = "".join(c if c.isprintable() or c == "\n" else "?" for c in text)  # it may quote a file
+    print(f"companion: {shown}", file=sys.stderr)
     if "--json" in sys.argv:
         from companion.cli.show import print_json
 

@@ -1,5 +1,8 @@
 """`companion log ...`: looking into recordings."""
 
+import json
+from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 
 from rich.console import Console
@@ -10,6 +13,8 @@ from logs.errors import RecordingError
 from logs.info import RecordingInfo, info
 from logs.recovery import recover
 
+EARLIEST_NS = 10**18
+"""Times from then on (2001) are on the calendar [ns]; others count from a boot, or from a simulation's beginning."""
 LOSSY = 3
 """Exit code of a recovery that could not keep everything."""
 
@@ -87,24 +92,50 @@ def _json(found: RecordingInfo) -> dict[str, object]:
 
 
 def _print(found: RecordingInfo, out: Console) -> None:
-    state = "complete" if found.complete else f"[yellow]not complete: {found.problem}[/yellow]"
+    state = "complete" if found.complete else f"[yellow]not complete: {show.plain(found.problem)}[/yellow]"
     parts = f" in {found.parts} parts" if found.parts > 1 else ""
     about = f"{found.size_bytes / 1e6:.2f} MB{parts}, {found.duration_s:.2f} s, {state}"
-    out.print(f"[bold]{found.path}[/bold]  {about}", soft_wrap=True)
-    out.print(f"{found.messages} messages, written by {found.library}")
-    for name, size in found.attachments.items():
-        out.print(f"attachment {name} ({size} bytes)")
+    out.print(f"[bold]{show.plain(str(found.path))}[/bold]  {about}", soft_wrap=True)
+    for text in _about(found):
+        out.print(show.plain(text), soft_wrap=True)
     links = Table(title="links", title_justify="left")
     for column in ("link", "received", "bytes", "sent", "bytes"):
         links.add_column(column, justify="left" if column == "link" else "right")
     for link in found.links:
         numbers = (link.rx_datagrams, link.rx_bytes, link.tx_datagrams, link.tx_bytes)
-        links.add_row(link.name, *map(str, numbers))
-    out.print(links)
+        links.add_row(show.plain(link.name), *map(str, numbers))
+    if found.links:
+        out.print(links)
     topics = Table(title="topics", title_justify="left")
     topics.add_column("topic", no_wrap=True, overflow="ignore")
     topics.add_column("messages", justify="right")
     topics.add_column("Hz", justify="right")
     for topic in found.topics:
-        topics.add_row(topic.topic, str(topic.count), f"{topic.rate_hz:.1f}")
+        topics.add_row(show.plain(topic.topic), str(topic.count), f"{topic.rate_hz:.1f}")
     out.print(topics)
+
+
+def _about(found: RecordingInfo) -> Iterator[str]:
+    """Whose recording it is and of what, as far as its tables say."""
+    began = f", begun {datetime.fromtimestamp(found.start_ns / 1e9, UTC):%Y-%m-%d %H:%M:%S} UTC"
+    yield f"{found.messages} messages, written by {found.library}{began if found.start_ns > EARLIEST_NS else ''}"
+    run, outcome = found.metadata.get("run"), found.metadata.get("outcome", {}).get("json")
+    if run is not None:
+        flight = ", ".join(f"{name} {run[name]}" for name in ("mission", "seed", "version", "revision") if name in run)
+        yield f"{flight}{_verdict(outcome)}"
+    for table, how in (("import", "made of"), ("filter", "filtered from"), ("recovery", "recovered")):
+        values = found.metadata.get(table)
+        if values is not None:
+            told = ", ".join(f"{name} {value}" for name, value in values.items() if name != "of")
+            yield " ".join(text for text in (how, values.get("of", ""), f"({told})" if told else "") if text)
+    for name, size in found.attachments.items():
+        yield f"attachment {name} ({size} bytes)"
+
+
+def _verdict(outcome: str | None) -> str:
+    """Of the flight, by the table `outcome`; nothing where there is none, or another's."""
+    try:
+        ok = json.loads(outcome or "null")["ok"]
+    except (ValueError, TypeError, KeyError):
+        return ""
+    return ": PASS" if ok else ": FAIL"

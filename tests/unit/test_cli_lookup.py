@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import sys
 import time
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Any
 
 import pytest
 from logs_traffic import TLOG, heartbeat, record, record_captured
+from mcap.writer import Writer
 from typer.testing import CliRunner
 
 from companion.cli.app import app
@@ -51,6 +53,34 @@ def test_messages_are_printed_with_mavlinks_names_and_the_time_since_the_first(l
 def test_a_text_from_a_peer_cannot_write_to_the_terminal(log: Path) -> None:
     _, out = run("cat", log, "--topic", "/companion/note")
     assert 'text="a note?[31m"' in out
+
+
+def test_nothing_in_a_strangers_file_is_obeyed_by_the_terminal_or_taken_for_markup(tmp_path: Path) -> None:
+    path = tmp_path / "strange.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start(library="theirs [/x] \x1b[31m")
+        channel = writer.register_channel("/[/x]\x1b[2J", "json", 0)
+        writer.add_message(channel, 0, b"{}", 0)
+        writer.add_attachment(0, 0, "[/y]\x1b[2J", "text/plain", b"")
+        writer.add_metadata("import", {"of": "[/z]"})
+        writer.finish()
+    code, out = run("info", path)
+    assert code == 0
+    assert "theirs [/x] ?[31m" in out
+    assert "made of [/z]" in out
+    assert "\x1b" not in out
+
+
+def test_info_says_what_a_recording_was_made_of_and_when_it_began(log: Path, tmp_path: Path) -> None:
+    run("import", TLOG, "-o", tmp_path / "px4.mcap")
+    _, out = run("info", tmp_path / "px4.mcap")
+    assert f"made of {TLOG.name} (format tlog" in out
+    assert re.search(r"begun 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d UTC", out)
+    run("filter", log, "-o", tmp_path / "small.mcap", "--message", "ATTITUDE")
+    _, out = run("info", tmp_path / "small.mcap")
+    assert 'filtered from flight.mcap (names ["ATTITUDE"]' in out
+    assert "begun" not in out
 
 
 def test_with_json_every_line_is_an_object(log: Path) -> None:
