@@ -160,7 +160,7 @@ class Cluster:
     def _outcome(self, future: "Future[Any]", item: T, before: int) -> tuple[Outcome[T, Any], bool]:
         """What came of an item that was begun so often before, and whether it was the loss of its workers."""
         try:
-            done: Outcome[None, Any] = future.result()
+            done = self._fetched(future)
         except CancelledError as error:
             raise SchedulerError(self._address, LOST) from error
         except (StrangeWorker, ImportError) as error:
@@ -172,6 +172,16 @@ class Cluster:
                 self._look()  # it is there: only the result cannot be read here
             return Outcome(item, error=told(error), attempts=before + 1), False  # what cannot be sent back
         return Outcome(item, done.result, done.error, done.infrastructure, before + done.attempts), False
+
+    def _fetched(self, future: "Future[Any]") -> Outcome[None, Any]:
+        """The result, which may have to be worked out again first where its worker was lost with it."""
+        while True:
+            try:
+                fetched: Outcome[None, Any] = future.result(timeout=QUIET_S)
+            except TimeoutError:
+                self._look()
+            else:
+                return fetched
 
     def _refuse_a_strange_scheduler(self) -> None:
         """It reads what it hands on: our modules have to be there, and of one version."""
@@ -255,7 +265,7 @@ def _connected(address: str) -> "Client":
     try:
         there = asyncio.run(_identity(address))
     except Exception as error:
-        raise SchedulerError(address, "what answers there is no Dask scheduler") from error
+        raise SchedulerError(address, "no Dask scheduler answers there") from error
     if there.get("type") != "Scheduler":
         raise SchedulerError(address, f"found a Dask {str(there.get('type')).lower()}, expected a scheduler")
     with warnings.catch_warnings():

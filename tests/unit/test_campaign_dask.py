@@ -156,16 +156,32 @@ def test_a_worker_killed_in_mid_campaign_costs_no_result_and_doubles_none(cluste
     }
 
 
+@pytest.mark.parametrize("fate", [signal.SIGSTOP, signal.SIGKILL])
 def test_a_scheduler_lost_in_mid_campaign_is_one_line_after_the_results_so_far(
-    cluster: Cluster, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    cluster: Cluster,
+    fate: signal.Signals,
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     with closing(dask(cluster.address)) as executor:
+        monkeypatch.setattr("campaigns.executors.dask.QUIET_S", 0.5)
+        monkeypatch.setattr("campaigns.executors.dask.ANSWER_S", 1.0)
         outcomes = executor.map(squares_slowly, [(tmp_path, number) for number in range(100)])
         assert next(outcomes).result is not None
-        os.kill(cluster.scheduler, signal.SIGKILL)
+        os.kill(cluster.scheduler, fate)
         with pytest.raises(SchedulerError, match="^" + re.escape(f"{cluster.address}: the scheduler is gone") + "$"):
             list(outcomes)
+    os.kill(cluster.scheduler, signal.SIGCONT)
     assert capfd.readouterr().err == ""
+
+
+def test_a_machine_without_the_extra_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("campaigns.executors.dask.util.find_spec", lambda name: None)
+    with pytest.raises(
+        SchedulerError, match=r"needs the package distributed: pip install 'mavlink-companion\[dask\]'$"
+    ):
+        dask("tcp://127.0.0.1:8786")
 
 
 def test_a_scheduler_that_has_no_companion_is_told(tmp_path: Path) -> None:
@@ -196,7 +212,7 @@ def test_what_is_no_scheduler_is_told(says: bytes, monkeypatch: pytest.MonkeyPat
                     peer.recv(100_000)
 
         pool.submit(answer)
-        with pytest.raises(SchedulerError, match="what answers there is no Dask scheduler"):
+        with pytest.raises(SchedulerError, match="no Dask scheduler answers there"):
             dask(f"tcp://127.0.0.1:{server.getsockname()[1]}")
 
 
