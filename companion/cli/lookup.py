@@ -1,12 +1,14 @@
 """`companion log cat | filter | diff | export | import`: what is in recordings, and what becomes of them elsewhere."""
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 
 from companion.cli import show
+from companion.recordedsettings import differing, settings_of
 from logs.diff import Diff, diff
 from logs.export import Exported
 from logs.export.csv import to_csv
@@ -22,6 +24,8 @@ from logs.selection import Selection, nothing_left, selected
 DIFFERENT = 3
 """Exit code of two recordings that differ."""
 MOST_SHOWN = 30
+Differing = Mapping[str, tuple[Any, Any]]
+"""Keys of mission and configuration, with the value in either."""
 EXPORTS = {"tlog": (to_tlog, ".tlog"), "csv": (to_csv, ".csv"), "parquet": (to_parquet, ".parquet")}
 EXPORTS |= {"json": (to_json, ".jsonl")}
 
@@ -85,15 +89,16 @@ def diff_logs(left: Path, right: Path, wanted: Selection, ignore: list[str], tol
     one, other = Recording.open(left), Recording.open(right)
     with show.working(show.console(), "comparing"):
         found = diff(one, other, wanted, ignore=ignore, tolerance=tolerance)
+        settings = differing(settings_of(one), settings_of(other)) if wanted == Selection() else {}
     if not found.compared and not found.counts:
         raise nothing_left(one, wanted)
     for recording in (one, other):
         _tell_problem(recording)
     if as_json:
-        show.print_json(_diff_json(found, left, right))
+        show.print_json(_diff_json(found, settings, left, right))
     else:
-        _print_diff(found, left, right, Console())
-    return 0 if found.same else DIFFERENT
+        _print_diff(found, settings, left, right, Console())
+    return 0 if found.same and not settings else DIFFERENT
 
 
 def _tell_problem(recording: Recording) -> None:
@@ -130,7 +135,7 @@ def _told(done: Exported, as_json: bool, what: str) -> int:
     return 0
 
 
-def _diff_json(found: Diff, left: Path, right: Path) -> dict[str, Any]:
+def _diff_json(found: Diff, settings: Differing, left: Path, right: Path) -> dict[str, Any]:
     fields = [
         {
             "topic": item.topic,
@@ -144,11 +149,12 @@ def _diff_json(found: Diff, left: Path, right: Path) -> dict[str, Any]:
         for item in found.fields
     ]
     return {
-        "ok": found.same,
+        "ok": found.same and not settings,
         "left": str(left),
         "right": str(right),
         "compared": found.compared,
         "equal": found.equal,
+        "settings": [{"name": name, "left": pair[0], "right": pair[1]} for name, pair in settings.items()],
         "parameters": [
             {"system": system, "component": component, "name": name, "left": values[0], "right": values[1]}
             for (system, component, name), values in found.parameters.items()
@@ -160,7 +166,7 @@ def _diff_json(found: Diff, left: Path, right: Path) -> dict[str, Any]:
     }
 
 
-def _print_diff(found: Diff, left: Path, right: Path, out: Console) -> None:
+def _print_diff(found: Diff, settings: Differing, left: Path, right: Path, out: Console) -> None:
     def say(text: str) -> None:
         out.print(show.plain(text), soft_wrap=True, highlight=False)
 
@@ -174,6 +180,10 @@ def _print_diff(found: Diff, left: Path, right: Path, out: Console) -> None:
 
     say(f"< {left}")
     say(f"> {right}")
+    some(
+        "mission and configuration",
+        [f"{name}: {_value(one)} | {_value(other)}" for name, (one, other) in settings.items()],
+    )
     some(
         "parameters",
         [
@@ -195,7 +205,11 @@ def _print_diff(found: Diff, left: Path, right: Path, out: Console) -> None:
             for f in found.fields
         ],
     )
-    say("no difference" if found.same else f"{found.equal} of {found.compared} pairs of messages are the same")
+    say(
+        "no difference"
+        if found.same and not settings
+        else f"{found.equal} of {found.compared} pairs of messages are the same"
+    )
 
 
 def _value(value: Any) -> str:

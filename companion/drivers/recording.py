@@ -18,6 +18,9 @@ from companion.drivers.mirroring import Mirroring
 from companion.drivers.provenance import RUN, run_table
 from companion.drivers.tick import Tick
 from companion.drivers.worldfiles import world_attachments
+from companion.recordedsettings import CONFIG_KEY
+from companion.recordedsettings import CONFIG_METADATA as CONFIG_METADATA
+from companion.recordedsettings import MISSION_ATTACHMENT as MISSION_ATTACHMENT
 from companion.seam import (
     Flown,
     Input,
@@ -39,9 +42,6 @@ from logs.table import Entry, inputs_digest
 from planner import Trajectory
 from wire.datagram import Datagram
 from wire.udp import UdpLink
-
-MISSION_ATTACHMENT = "mission.yaml"
-CONFIG_METADATA = "companion.config"
 
 
 def to_record(item: Input | Output, phase: str) -> schema.Record:
@@ -191,7 +191,7 @@ def _trajectory(points: tuple[float, ...], knots: tuple[float, ...]) -> Trajecto
 
 def header(companion: Companion, mission_file: bytes, **more: Mapping[str, str]) -> dict[str, Any]:
     """What a recording begins with, as keyword arguments of `Recorder`: the mission and what else a re-run needs."""
-    config = {"config": json.dumps(asdict(companion.config), sort_keys=True)}
+    config = {CONFIG_KEY: json.dumps(asdict(companion.config), sort_keys=True)}
     clock = more.get("clock", {}).get("epoch", "lockstep")
     run = run_table(companion, clock, dict(more.get("endpoints", {})))
     return {

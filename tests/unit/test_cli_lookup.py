@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from companion.cli.app import app
 from companion.cli.keys import Keyboard, keyboard
 from companion.cli.lookup import cat
-from logs import schema
+from logs import Attachment, schema
 from logs.errors import RecordingError
 from logs.recorder import Recorder
 from logs.selection import Selection
@@ -123,6 +123,24 @@ def test_two_recordings_that_differ_end_with_3_and_those_that_do_not_with_0(log:
     code, out = run("diff", log, tmp_path / "small.mcap")
     assert code == 3
     assert "they part at " in out
+
+
+def test_two_flights_differ_by_the_keys_of_mission_and_configuration(tmp_path: Path) -> None:
+    paths = []
+    for number, (speed, seed) in enumerate(((2, 1), (2.5, 3))):
+        mission = f"name: hop\nlimits: {{speed: {speed}}}\nsteps:\n  - takeoff: {{altitude: 2}}\n  - land\n".encode()
+        attached = [Attachment("mission.yaml", "application/yaml", mission)]
+        metadata = {"companion.config": {"config": json.dumps({"seed": seed, "ground_links": []})}}
+        paths.append(tmp_path / f"{number}.mcap")
+        with Recorder(paths[-1], metadata=metadata, attachments=attached, threaded=False) as recorder:
+            record(recorder, schema.Note(6, "flying", "words"), 3_000_000, 0)
+    assert run("diff", paths[0], paths[0])[0] == 0
+    code, out = run("diff", *paths)
+    assert code == 3
+    assert "mission and configuration:\n  limits.speed: 2 | 2.5\n  seed: 1 | 3\n" in out
+    code, out = run("diff", *paths, "--json")
+    assert (code, json.loads(out)["settings"][0]) == (3, {"name": "limits.speed", "left": 2, "right": 2.5})
+    assert run("diff", *paths, "--message", "Note")[0] == 0
 
 
 def test_a_comparison_of_nothing_is_an_error_and_not_a_pass(log: Path) -> None:
