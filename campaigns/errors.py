@@ -1,6 +1,7 @@
 """What can go wrong in a campaign for the caller.
 
 CampaignError
+├── CampaignInterrupted  Ctrl-C, or a signal to end; what was done is kept
 └── SchedulerError  no Dask scheduler or worker that could be used, or none any more
 
 A flight that fails is no error but a result, and so is work that cannot be done (`campaigns.executors.base.Outcome`).
@@ -9,6 +10,10 @@ A flight that fails is no error but a result, and so is work that cannot be done
 
 class CampaignError(Exception):
     """Root of everything campaigns raise; its text is one line for a person."""
+
+
+class CampaignInterrupted(CampaignError):
+    """Somebody ended it before its end."""
 
 
 class SchedulerError(CampaignError):

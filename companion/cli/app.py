@@ -1,6 +1,7 @@
 """`companion`: the commands, and what becomes of errors.
 
-Exit codes: 0 ok, 1 the flight or its input failed, 2 usage, 3 a verification failed. A known error is one clear line on
+Exit codes: 0 ok, 1 the flight or its input failed, 2 usage, 3 a verification failed,
+130 a campaign was ended before its end. A known error is one clear line on
 stderr without a traceback. Heavy imports happen inside the commands, so that `--help` answers at once.
 """
 
@@ -10,6 +11,7 @@ from typing import Annotated, Any, Literal, NoReturn
 
 import typer
 
+from companion.cli.campaign_commands import campaign_app
 from companion.cli.log_commands import log_app
 from companion.cli.options import (
     LIVE,
@@ -45,6 +47,7 @@ app = typer.Typer(
 mission_app = typer.Typer(help="Missions and ground stations' plans.", no_args_is_help=True)
 app.add_typer(mission_app, name="mission")
 app.add_typer(log_app, name="log")
+app.add_typer(campaign_app, name="campaign")
 
 
 @app.command()
@@ -333,9 +336,7 @@ def main() -> None:
             _wrong_usage(error)
         if not isinstance(error, _known_errors()):
             raise
-        from wire.errors import EndpointError
-
-        _fail(str(error), 2 if isinstance(error, EndpointError) else 1)
+        _fail(str(error), _exit_code(error))
     if code == INTERRUPTED:
         _fail("interrupted", 1)
     sys.exit(code)
@@ -365,16 +366,24 @@ def _fail(text: str, code: int) -> NoReturn:
     if "--json" in sys.argv:
         from companion.cli.show import print_json
 
-        flight = any(command in sys.argv for command in ("demo", "fly", "simulate"))
+        flight = sys.argv[1] in ("demo", "fly", "simulate")
         print_json({"ok": False, "failure": text, **dict.fromkeys(FLIGHT_KEYS if flight else ())})
     sys.exit(code)
 
 
+def _exit_code(error: Exception) -> int:
+    from campaigns.errors import CampaignInterrupted
+    from wire.errors import EndpointError
+
+    return INTERRUPTED if isinstance(error, CampaignInterrupted) else 2 if isinstance(error, EndpointError) else 1
+
+
 def _known_errors() -> tuple[type[Exception], ...]:
+    from campaigns.errors import CampaignError
     from companion.errors import CompanionError
     from fakevehicle.errors import VehicleError
     from logs.errors import LogsError
     from planner.errors import PlannerError
     from wire.errors import WireError
 
-    return (CompanionError, LogsError, PlannerError, VehicleError, WireError)
+    return (CampaignError, CompanionError, LogsError, PlannerError, VehicleError, WireError)
