@@ -26,7 +26,7 @@ from logs.report.scene import scene_of
 from logs.report.setpoints import setpoints_part
 from logs.report.timeline import mode_name, timeline_part
 from logs.report.tracking import clearance_part, path_part, tracked, tracking_part
-from logs.report.traffic import read
+from logs.report.traffic import LOG, read
 from wire.dialect import mavlink
 
 _UNIX_NS = 10**17  # log times beyond this are times of day
@@ -91,7 +91,8 @@ def _source_table(flight: Flight) -> c.Table:
     frame = (
         "the mission's" if flight.origin_n is not None else "the vehicle's local one: no reference tells the mission's"
     )
-    return c.Table("verdict", "Where from", ("what", "from"), [["position", flight.source], ["frame", frame]])
+    source = "the log's own estimator" if flight.traffic.vehicle == LOG else flight.source
+    return c.Table("verdict", "Where from", ("what", "from"), [["position", source], ["frame", frame]])
 
 
 def _parameters(recording: Recording) -> Values:
@@ -258,11 +259,14 @@ def _loss(recording: Recording, flight: Flight) -> list[tuple[str, int]]:
     """Counters of loss: the sequence's, the recorder's, the sockets'."""
     found: dict[str, int] = {}
     vehicle = flight.traffic.vehicle
-    if vehicle is not None:
+    if vehicle in flight.traffic.tallies:
         found["packets missing by sequence"] = flight.traffic.tallies[vehicle].lost
     for name, text in recording.metadata.get("recorder", {}).items():
         if name.startswith("dropped_") and text.isdecimal():
             found[f"not recorded, {name.removeprefix('dropped_')}"] = int(text)
+    dropouts = recording.metadata.get("import", {}).get("dropouts", "")
+    if dropouts.isdecimal():
+        found["dropouts of the log"] = int(dropouts)
     found |= losses(flight)
     if recording.gaps:
         found["gaps between parts"] = len(recording.gaps)

@@ -19,6 +19,7 @@ from logs import schema
 from logs.errors import RecordingError
 from logs.reader import RecordedMessage, Recording
 from logs.report.columns import Rows, Stream, payload_type
+from logs.report.foreign import Translator, reference_of
 from wire.dialect import mavlink
 from wire.framing import Framer, Packet
 
@@ -39,6 +40,8 @@ _EMPTY_RATE = (0, 0)
 _UNSEEN = (schema.EstimatorBegin, schema.EstimatorInputs)
 """Records that no report shows: what a re-run of the estimator is fed."""
 _NO_ROTORS = (float("nan"),) * 8
+LOG = ("log", "rx", 1, 1)
+"""Who a vehicle is that only its own log tells of."""
 
 Sender = tuple[str, str, int, int]
 """Link, direction, system and component."""
@@ -129,13 +132,15 @@ class Traffic:
 
 def read(recording: Recording) -> Traffic:
     """Read a recording through once."""
-    traffic, framers = Traffic(), _Framers()
+    traffic, framers, translator = Traffic(), _Framers(), Translator()
     kinds = {schema.schema_name(kind): kind for kind in schema.RECORDS}
     for message in recording.messages():
         if message.channel.direction is not None:
             _packets(traffic, framers, message)
         elif message.channel.encoding == "protobuf" and (kind := kinds.get(message.channel.schema)) is not None:
             _record(traffic, kind, message)
+        elif message.channel.schema.startswith(("px4.", "ardupilot.")):
+            _logged(traffic, translator, recording, message)
         elif message.channel.schema == "foxglove.SceneUpdate" and len(traffic.mirrors) < MOST_MIRRORS:
             with suppress(RecordingError):
                 traffic.mirrors.append((message.log_time_ns, recording.decode(message)))
@@ -143,6 +148,27 @@ def read(recording: Recording) -> Traffic:
         traffic.last_ns = max(traffic.last_ns, message.log_time_ns)
         traffic.messages += 1
     return traffic
+
+
+def _logged(traffic: Traffic, translator: Translator, recording: Recording, message: RecordedMessage) -> None:
+    """What an autopilot's own log holds, as if it had been told."""
+    schema_name, t_ns = message.channel.schema, message.log_time_ns
+    steered = schema_name == "px4.trajectory_setpoint"
+    if not steered and not translator.reads(schema_name, message.channel.topic):
+        return
+    try:
+        decoded = recording.decode(message)
+    except RecordingError:
+        return
+    if (reference := reference_of(schema_name, decoded)) is not None:
+        traffic._references.extend((t_ns, 0.0, *reference))
+    elif not steered:
+        traffic.vehicle = traffic.vehicle or LOG
+        for number, payload in translator.said(schema_name, decoded):
+            stream = traffic.streams.get((LOG, number))
+            if stream is None:
+                stream = traffic.streams[LOG, number] = Stream(number)
+            stream.add(t_ns, 0, payload)
 
 
 class _Framers(dict[tuple[str, str], Framer]):

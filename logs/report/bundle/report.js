@@ -1,5 +1,5 @@
 /*!
-Built by 'make web' from web/ of companion (MIT), sources 9639767ff41c55628bc2a8c2b5c3c03cdb65615b78578d3f7be45ac5cc52fc0c. It contains:
+Built by 'make web' from web/ of companion (MIT), sources d9808261ee082ad871782626721729ec96631c8c6a3b2b377282ee04d30d4304. It contains:
 
 three 0.187.0, https://threejs.org/
 
