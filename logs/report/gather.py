@@ -213,6 +213,8 @@ def _facts(recording: Recording, flight: Flight, measured: dict[str, float]) -> 
     for name, value in metadata.get("run", {}).items():
         if value and len(value) < 200 and name != "mission":
             facts.append((name.replace("_", " "), value))
+    if told := metadata.get("schema", {}):
+        facts.append(("format", ", ".join(f"{name} {value}" for name, value in told.items() if len(value) < 50)))
     seed = _seed(metadata)
     if seed is not None and "seed" not in metadata.get("run", {}):
         facts.append(("seed", seed))
