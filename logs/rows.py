@@ -106,17 +106,42 @@ _Reader = Callable[[Any], Any]
 _READERS: dict[Any, list[tuple[str, _Reader]]] = {}
 
 
+def nests(field: FieldDescriptor) -> bool:
+    """Whether a field is a message that is taken apart: one, no list, and of no kind that can hold itself."""
+    return field.message_type is not None and not field.is_repeated and not _holds_itself(field.message_type)
+
+
+def _holds_itself(kind: Descriptor) -> bool:
+    waiting, seen = [kind], set[str]()
+    while waiting:
+        for field in waiting.pop().fields:
+            inner = field.message_type
+            if inner is None or inner.full_name in seen:
+                continue
+            if inner.full_name == kind.full_name:
+                return True
+            seen.add(inner.full_name)
+            waiting.append(inner)
+    return False
+
+
 def _readers(descriptor: Descriptor) -> list[tuple[str, _Reader]]:
     octets = descriptor.full_name.startswith(f"{PACKAGE}.")
     return [(field.name, _reader(field, octets)) for field in descriptor.fields]
 
 
 def _reader(field: FieldDescriptor, octets: bool) -> _Reader:
-    name, repeated = field.name, field.is_repeated
-    if field.type == FieldDescriptor.TYPE_MESSAGE:
-        if repeated:
-            return lambda message: [plain(item) for item in getattr(message, name)]
-        absent = _absent(field.message_type, 4)
+    name, repeated, kind = field.name, field.is_repeated, field.message_type
+    if kind is not None and kind.GetOptions().map_entry:
+        return lambda message: [
+            {"key": key, "value": _map_value(value)} for key, value in sorted(getattr(message, name).items())
+        ]
+    if kind is not None and repeated:
+        return lambda message: [plain(item) for item in getattr(message, name)]
+    if kind is not None and not nests(field):  # a list of one or none: however deep it goes, one column
+        return lambda message: [plain(getattr(message, name))] if message.HasField(name) else []
+    if kind is not None:
+        absent = _absent(kind)
         return lambda message: plain(getattr(message, name)) if message.HasField(name) else absent
     if field.type == FieldDescriptor.TYPE_FLOAT:
         if repeated:
@@ -127,13 +152,11 @@ def _reader(field: FieldDescriptor, octets: bool) -> _Reader:
     return lambda message: getattr(message, name)
 
 
-def _absent(descriptor: Descriptor | None, depth: int) -> dict[str, Any]:
+def _map_value(value: Any) -> Any:
+    return plain(value) if hasattr(value, "DESCRIPTOR") else value
+
+
+def _absent(descriptor: Descriptor | None) -> dict[str, Any]:
     """A nested message that is not there: None for each of its fields, so that columns stay what they are."""
-    if descriptor is None or not depth:
-        return {}
-    return {
-        field.name: _absent(field.message_type, depth - 1)
-        if field.type == FieldDescriptor.TYPE_MESSAGE and not field.is_repeated
-        else None
-        for field in descriptor.fields
-    }
+    fields = () if descriptor is None else descriptor.fields
+    return {field.name: _absent(field.message_type) if nests(field) else None for field in fields}

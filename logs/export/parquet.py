@@ -14,7 +14,7 @@ from logs.errors import RecordingError
 from logs.export import Exported, FileNames, begun, unfinished
 from logs.export.tables import jsonable
 from logs.reader import RecordedMessage, Recording
-from logs.rows import flat, row
+from logs.rows import flat, nests, row
 from logs.selection import Selection, nothing_left, selected
 from logs.transcode import PACKAGE
 
@@ -94,10 +94,10 @@ class _Table:
         octets = descriptor.full_name.startswith(f"{PACKAGE}.")
         for field in descriptor.fields:
             name = prefix + field.name
-            if field.type == FieldDescriptor.TYPE_MESSAGE and not field.is_repeated:
+            if nests(field):
                 self._fields(field.message_type, f"{name}.", into)
                 continue
-            if field.type == FieldDescriptor.TYPE_MESSAGE:
+            if field.message_type is not None:
                 kind = self._arrow.string()
                 self._told.add(name)
             elif octets and field.type == FieldDescriptor.TYPE_BYTES:

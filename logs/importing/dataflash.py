@@ -25,13 +25,12 @@ def import_dataflash(source: Path, target: Path, force: bool = False) -> Importe
     ------
     RecordingError    It is no such log, or `target` cannot be written.
     """
-    from pymavlink.DFReader import DFReader_binary
-
     with open(source, "rb") as file:
         if file.read(2) != b"\xa3\x95":
             raise RecordingError(source, "it does not begin as a .BIN does: no ArduPilot log")
     done = Imported(target)
-    reader = DFReader_binary.__new__(DFReader_binary)  # so that what it opens can be closed if its beginning fails
+    kind = _reader()
+    reader = kind.__new__(kind)  # so that what it opens can be closed if its beginning fails
     try:
         try:
             reader.__init__(str(source), zero_time_base=False)
@@ -47,6 +46,21 @@ def import_dataflash(source: Path, target: Path, force: bool = False) -> Importe
             with suppress(AttributeError, BufferError):  # what it has not opened, and what it still holds on to
                 getattr(reader, name).close()
     return done
+
+
+def _reader() -> Any:
+    """pymavlink's reader, which goes round for ever over a message that says it is no longer than its header."""
+    from pymavlink.DFReader import DFReader_binary
+
+    class Onward(DFReader_binary):  # type: ignore[misc]
+        def _parse_next(self) -> Any:
+            before = self.offset
+            message = super()._parse_next()
+            if message is not None and self.offset <= before:
+                raise ValueError(f"the message at byte {before} has no length")
+            return message
+
+    return Onward
 
 
 def _copy(reader: Any, foreign: Foreign, done: Imported) -> None:

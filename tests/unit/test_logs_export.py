@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from google.protobuf import descriptor_pb2
 from logs_traffic import heartbeat, record, record_captured
+from mcap.writer import Writer
 from pymavlink import mavutil
 
 from logs import Recording, RecordingError, schema
@@ -193,3 +195,47 @@ def test_topics_that_are_alike_to_a_file_system_get_files_of_their_own() -> None
         "_x",
         "_",
     ]
+
+
+def strange(path: Path) -> Recording:
+    """A recording of somebody else's: messages of a kind that holds itself, and a map."""
+    file = descriptor_pb2.FileDescriptorProto(name="n.proto", package="n", syntax="proto3")
+    node = file.message_type.add(name="Node")
+    node.field.add(name="next", number=1, type=11, label=1, type_name=".n.Node")
+    node.field.add(name="value", number=2, type=5, label=1)
+    entry = node.nested_type.add(name="TagsEntry")
+    entry.options.map_entry = True
+    entry.field.add(name="key", number=1, type=9, label=1)
+    entry.field.add(name="value", number=2, type=5, label=1)
+    node.field.add(name="tags", number=3, type=11, label=3, type_name=".n.Node.TagsEntry")
+    with path.open("wb") as out:
+        writer = Writer(out)
+        writer.start()
+        files = descriptor_pb2.FileDescriptorSet(file=[file]).SerializeToString()
+        channel = writer.register_channel("/node", "protobuf", writer.register_schema("n.Node", "protobuf", files))
+        writer.add_message(channel, 1, b"\x10\x05", 1)  # value 5
+        writer.add_message(
+            channel, 2, b"\x0a\x04\x0a\x02\x10\x07\x1a\x05\x0a\x01a\x10\x09", 2
+        )  # next.next.value 7, a: 9
+        writer.finish()
+    return Recording.open(path)
+
+
+@pytest.mark.parametrize("export", [to_csv, to_json, to_parquet])
+def test_messages_that_hold_themselves_and_maps_are_told_whole(export: Any, tmp_path: Path) -> None:
+    if export is to_parquet:
+        pytest.importorskip("pyarrow")
+    done = export(strange(tmp_path / "strange.mcap"), tmp_path / "out", Selection())
+    inner = [{"next": [{"next": [], "value": 7, "tags": []}], "value": 0, "tags": []}]
+    if export is to_json:
+        _, second = (json.loads(line)["values"] for line in done.path.read_text().splitlines())
+        found = second["next"], second["tags"]
+    elif export is to_csv:
+        _, second = csv.DictReader((done.path / "node.csv").read_text().splitlines())
+        found = json.loads(second["next"]), json.loads(second["tags"])
+    else:
+        import pyarrow.parquet
+
+        second = pyarrow.parquet.read_table(done.path / "node.parquet").to_pylist()[1]
+        found = json.loads(second["next"]), json.loads(second["tags"])
+    assert found == (inner, [{"key": "a", "value": 9}])

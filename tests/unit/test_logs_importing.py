@@ -172,6 +172,13 @@ def test_an_ardupilot_log_becomes_channels_with_its_own_names(tmp_path: Path) ->
     assert found["/ardupilot/MSG"][0].values["Message"] == "ArduCopter V4.6"
 
 
+def test_a_kind_of_message_without_a_length_does_not_hold_the_import_up_for_ever(tmp_path: Path) -> None:
+    nothing = b"\xa3\x95\x80" + struct.pack("<BB4s16s64s", 140, 0, b"NONE", b"", b"")
+    (tmp_path / "log.BIN").write_bytes(dataflash() + nothing + b"\xa3\x95\x8c" * 20)
+    with pytest.raises(RecordingError, match="has no length"):
+        import_log(tmp_path / "log.BIN", tmp_path / "log.mcap")
+
+
 @pytest.mark.parametrize("ending", [".tlog", ".ulg", ".bin"])
 def test_whatever_bytes_are_damaged_there_is_a_recording_or_one_line(
     ending: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
