@@ -22,6 +22,8 @@ from mcap.records import Attachment, Channel, ChunkIndex, Footer, Header, Metada
 from logs.container import LIBRARY, MAGIC
 from logs.unpack import CHUNK, MESSAGE, RECORD, Buffer, Unpacked, unpack, whole
 
+MOST_TRIED = 16
+"""Times the file's size; checksums of more bytes than that are not taken, and what is not proved by then is lost."""
 _PIECE = 256 * 1024
 _START = re.compile(rb"[\x06\x09\x0c\x0f](?=.{5}\x00\x00\x00)", re.DOTALL)
 """Chunk, attachment, metadata, end of the data; no record is a terabyte long."""
@@ -61,6 +63,7 @@ class Scan:
     schemas, channels : declared anywhere, the summary included.
     problem : why the file is not whole; empty if it is.
     damaged : whether something is not what was written, rather than only missing at the end.
+    tried : bytes of chunks and attachments whose checksums were taken.
     """
 
     size: int
@@ -70,6 +73,7 @@ class Scan:
     channels: dict[int, Channel] = field(default_factory=dict)
     problem: str = ""
     damaged: bool = False
+    tried: int = 0
 
 
 def scan(data: Buffer, found: Scan) -> Iterator[Piece]:
@@ -109,7 +113,7 @@ def scan(data: Buffer, found: Scan) -> Iterator[Piece]:
             yield piece
             position = next_at
             continue
-        go_on = _next(data, position + 1, summary_at)
+        go_on = _next(data, position + 1, summary_at, found)
         torn = unpack(data, position, size) if go_on is None and opcode == Opcode.CHUNK else None
         if not found.problem:
             at = f"byte {position}"
@@ -155,6 +159,8 @@ def _proved(data: Buffer, opcode: int, start: int, end: int, foreign: bool, foun
     body = start + RECORD.size
     try:
         if opcode == Opcode.CHUNK:
+            if not _may_try(data, start, end, found):
+                return None
             unpacked = unpack(data, start, end)
             if not unpacked.whole:
                 return None
@@ -169,7 +175,7 @@ def _proved(data: Buffer, opcode: int, start: int, end: int, foreign: bool, foun
         if opcode == Opcode.METADATA:
             return Piece("metadata", start, end) if _fits(data, body, end) else None
         if opcode == Opcode.ATTACHMENT:
-            return Piece("attachment", start, end) if _fits_attachment(data, body, end) else None
+            return Piece("attachment", start, end) if _fits_attachment(data, body, end, found) else None
         if foreign:
             return _proved_foreign(data, opcode, start, end, found)
     except (ValueError, struct.error, EndOfFile):
@@ -218,9 +224,21 @@ def _declare(unpacked: Unpacked, found: Scan) -> None:
         found.channels[channel.id] = channel
 
 
-def _next(data: Buffer, position: int, summary_at: int) -> int | None:
+def _may_try(data: Buffer, start: int, end: int, found: Scan) -> bool:
+    """Whether a checksum over these bytes may be taken: a file made of records in records must not take for ever."""
+    found.tried += end - start
+    return found.tried <= MOST_TRIED * len(data)
+
+
+def _next(data: Buffer, position: int, summary_at: int, found: Scan) -> int | None:
     """Where the next record stands that proves itself, or the data ends; None: nowhere."""
-    limit, ours = summary_at or len(data), Scan(0)
+    limit, ours = summary_at or len(data), Scan(0, tried=found.tried)
+    place = _search(data, position, limit, summary_at, ours)
+    found.tried = ours.tried
+    return place
+
+
+def _search(data: Buffer, position: int, limit: int, summary_at: int, ours: Scan) -> int | None:
     for match in _START.finditer(data, position, limit):
         start = match.start()
         opcode, length = _head(data, start)
@@ -348,7 +366,7 @@ def _string(data: Buffer, position: int, end: int) -> int:
     return stop
 
 
-def _fits_attachment(data: Buffer, position: int, end: int) -> bool:
+def _fits_attachment(data: Buffer, position: int, end: int, found: Scan) -> bool:
     """Whether an attachment's lengths fill it to the byte, and its checksum, if it has one, is right."""
     at = position + 16
     for _ in range(2):  # name, media type
@@ -357,7 +375,8 @@ def _fits_attachment(data: Buffer, position: int, end: int) -> bool:
             return False
     if at + 12 > end or at + 12 + int.from_bytes(data[at : at + 8], "little") != end:
         return False
-    return int.from_bytes(data[end - 4 : end], "little") in (0, _crc32(data, position, end - 4, 0))
+    stated = int.from_bytes(data[end - 4 : end], "little")
+    return not stated or (_may_try(data, position, end, found) and stated == _crc32(data, position, end - 4, 0))
 
 
 def _crc32(data: Buffer, start: int, end: int, crc: int) -> int:

@@ -306,6 +306,21 @@ def test_no_damage_takes_more_memory_than_twice_the_file_or_more_time_than_it_is
         strict(path)
 
 
+def test_records_in_records_in_records_are_given_up_in_time(whole: Path, tmp_path: Path) -> None:
+    """Attachments from every 45th byte to the end of the file, each with lengths that fit and a wrong checksum."""
+    data, path, count = whole.read_bytes()[:100_000], tmp_path / "hostile.mcap", 60_000
+    lengths = range(count * 45 - 5, 0, -45)
+    heads = [
+        b"\x09" + length.to_bytes(8, "little") + bytes(24) + (length - 36).to_bytes(8, "little") + b"####"
+        for length in lengths
+    ]
+    path.write_bytes(data + b"".join(heads) + b"####")
+    began = time.process_time()
+    recover(path)
+    assert time.process_time() - began < 5.0
+    assert strict(path)
+
+
 def test_a_recovery_killed_at_any_write_can_be_begun_again(whole: Path, tmp_path: Path) -> None:
     data, everything = whole.read_bytes(), strict(whole)
     for name, damaged in (("cut", data[:100_000]), ("hole", data[:50_000] + bytes(20) + data[50_020:])):
