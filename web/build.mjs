@@ -1,14 +1,14 @@
-// One script and one style sheet into ../logs/report/bundle, with the licences of what is inside them.
+// One script and one style sheet into ../logs/report/bundle, or the folder given, with the licences of what is inside them.
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
-const out = "../logs/report/bundle";
+const out = process.argv[2] ?? "../logs/report/bundle";
 
 /** The digest by which tests/pages tell that the bundle was built from these sources. */
 const digest = createHash("sha256");
 for (const name of readdirSync("src").sort()) digest.update(name).update("\0").update(readFileSync(`src/${name}`));
-digest.update(readFileSync("package-lock.json"));
+for (const name of ["build.mjs", "package-lock.json"]) digest.update(readFileSync(name));
 
 const notices = ["three", "uplot"].map((name) => {
   const { version, homepage } = JSON.parse(readFileSync(`node_modules/${name}/package.json`, "utf8"));

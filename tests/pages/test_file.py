@@ -5,6 +5,8 @@ import gzip
 import hashlib
 import json
 import re
+import shutil
+import subprocess
 from importlib import resources
 from pathlib import Path
 
@@ -15,6 +17,7 @@ from logs.errors import RecordingError
 from logs.report import array, contract, live_page, report_page, write_page
 
 WEB = Path(__file__).parents[2] / "web"
+NODE = shutil.which("node")
 EMPTY = contract.Report(contract.Header("nothing"), contract.Scene(contract.Track([], [], [], []))).to_json()
 
 
@@ -84,9 +87,19 @@ def test_the_bundle_was_built_from_the_sources_that_are_here():
     digest = hashlib.sha256()
     for path in sorted((WEB / "src").iterdir()):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    digest.update((WEB / "package-lock.json").read_bytes())
+    for name in ("build.mjs", "package-lock.json"):
+        digest.update((WEB / name).read_bytes())
     script = resources.files("logs.report").joinpath("bundle/report.js").read_text("utf-8")
     assert f"sources {digest.hexdigest()}." in script, "make web"
+
+
+@pytest.mark.skipif(NODE is None or not (WEB / "node_modules" / "esbuild").is_dir(), reason="no node: make web")
+def test_the_bundle_is_what_a_fresh_build_of_them_gives(tmp_path: Path):
+    subprocess.run([str(NODE), "build.mjs", str(tmp_path)], cwd=WEB, check=True, capture_output=True, timeout=60)
+    shipped = resources.files("logs.report") / "bundle"
+    assert {path.name for path in tmp_path.iterdir()} == {path.name for path in shipped.iterdir()}
+    for path in tmp_path.iterdir():
+        assert path.read_bytes() == shipped.joinpath(path.name).read_bytes(), path.name
 
 
 def test_the_bundle_is_less_than_a_megabyte():

@@ -1,5 +1,5 @@
 /*!
-Built by 'make web' from web/ of companion (MIT), sources d9808261ee082ad871782626721729ec96631c8c6a3b2b377282ee04d30d4304. It contains:
+Built by 'make web' from web/ of companion (MIT), sources e0aa8b0a8bc9c0238e9b8385267738b9b8d217040b6be77f85427788a982f2c1. It contains:
 
 three 0.187.0, https://threejs.org/
 
