@@ -30,6 +30,7 @@ class Progress:
     failed : of both, flights that did not end as expected.
     lost : rows of runs that nobody could fly.
     recordings, recorded : to be made, and made.
+    unrecorded : ids of runs whose recording could not be made, and why.
     differing : ids of runs that did not give the same row again.
     """
 
@@ -40,6 +41,7 @@ class Progress:
     lost: list[Row] = field(default_factory=list)
     recordings: int = 0
     recorded: int = 0
+    unrecorded: list[str] = field(default_factory=list)
     differing: list[str] = field(default_factory=list)
 
     @property
@@ -122,7 +124,7 @@ def record_flights(
         same = again is not None and stored is not None and not differences(stored.row, again.row)
         store.end_recording(run.run_id, keep=same)
         if again is None:
-            progress.lost.append(lost_row(run, outcome.infrastructure or outcome.error))
+            progress.unrecorded.append(f"{run.run_id}: {outcome.infrastructure or outcome.error}")
         elif not same:
             progress.differing.append(run.run_id)
         else:

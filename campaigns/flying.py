@@ -17,6 +17,7 @@ from campaigns.executors.base import told
 from campaigns.runs import Run
 from companion.testing.flight import fly
 from companion.testing.spec import FlightResult
+from logs.errors import LogsError
 
 Row = dict[str, Any]
 """A line of the table: columns by name, None where there is nothing."""
@@ -51,7 +52,12 @@ def fly_run(run: Run) -> Flown:
 
 
 def record_run(item: tuple[Run, Path]) -> Flown:
-    """The same flight, recorded to a file. Raises as `fly_run`."""
+    """The same flight, recorded to a file.
+
+    Raises
+    ------
+    OSError, MemoryError, LogsError : of the machine, such as a full disk.
+    """
     return _flown(*item)
 
 
@@ -94,7 +100,7 @@ def _flown(run: Run, record: Path | None) -> Flown:
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         result = fly(run.spec(record))
-    except (OSError, MemoryError):
+    except (OSError, MemoryError, LogsError):
         raise
     except Exception as error:  # a fault of ours: the same flight would meet it again
         result = FlightResult(run.spec(), ok=False, cause=told(error))

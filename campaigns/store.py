@@ -205,7 +205,8 @@ class Store:
             yield
         except OSError as error:
             safe = f"{len(self.done())} of {len(self.run_ids)} runs are safe in it"
-            raise CampaignError(f"{self.folder}: cannot be written: {error.strerror or error}; {safe}") from error
+            why = os.strerror(error.errno) if error.errno else str(error)
+            raise CampaignError(f"{self.folder}: cannot be written: {why}; {safe}") from error
 
     def _partial(self, what: str) -> Path:
         return self.runs / f".{platform.node()}.{os.getpid()}.{what}"
@@ -221,7 +222,7 @@ def open_store(folder: Path, sweep: Sweep, resume: bool) -> Store:
 
     Parameters
     ----------
-    resume : go on with what is there; else the folder must be new or empty.
+    resume : go on with what is there; else nothing may be done yet.
 
     Raises
     ------
@@ -239,7 +240,7 @@ def open_store(folder: Path, sweep: Sweep, resume: bool) -> Store:
     if store.told["digest"] != sweep.digest:
         by = "" if store.told["version"] == version() else f", flown by version {store.told['version']}"
         raise CampaignError(f"{folder}: holds another campaign, {store.name!r}{by}: choose another --out")
-    if not resume:
+    if store.done() and not resume:
         done = f"{len(store.done())} of {len(store.run_ids)} runs are done"
         raise CampaignError(f"{folder}: holds this campaign, {done}: --resume goes on with it, --out makes another")
     store.clear_partial()

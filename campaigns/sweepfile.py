@@ -269,8 +269,25 @@ def _what(item: Any, keys: list[Any]) -> str:
         return message if "found" in message else f"{message}, found {shown(item['input'])}"
     if keys and keys[-1] == "seeds":
         return f"found {shown(item['input'])}, expected a count, a list of seeds, or FIRST-LAST such as 1-50"
-    expected = message.removeprefix("Input should be ").split(", unable")[0]
+    expected = _FORMS.get(item["type"]) or message.removeprefix("Input should be ").split(", unable")[0]
+    if keys and keys[0] in _SHORT and item["type"] == "model_type":
+        expected = _SHORT[str(keys[0])]
     return f"found {shown(item['input'])}, expected {expected}"
+
+
+_FORMS = {
+    "too_short": "at least one value",
+    "too_long": "fewer values",
+    "model_type": "a mapping",
+    "dict_type": "a mapping",
+    "list_type": "a list",
+    "string_type": "text",
+}
+_SHORT = {
+    "winds": f"the word {MISSION}, [NORTH, EAST] in m/s, or a mapping",
+    "links": "the word none, or a mapping",
+    "gains": "a preset, a parameter file, or a mapping",
+}
 
 
 def _keys() -> set[str]:

@@ -7,7 +7,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 
 from rich.console import Console
@@ -26,8 +26,9 @@ from campaigns.campaign import (
 from campaigns.errors import CampaignError, CampaignInterrupted
 from campaigns.executors import Executor, local
 from campaigns.flying import Row, fly_run, record_run
+from campaigns.runs import Run
 from campaigns.store import Store, open_store
-from campaigns.sweep import load_sweep
+from campaigns.sweep import Sweep, load_sweep
 from campaigns.table import check_parquet
 from companion.cli import show
 
@@ -51,34 +52,33 @@ def fly_sweep(
     if part is None:
         print(f"companion: --shard: found {shard!r}, expected K/N such as 3/50, K at most N", file=sys.stderr)
         return 2
-    console = show.console()
-    with show.working(console, f"reading {path}"):
+    with show.working(show.console(), f"reading {path}"):
         sweep = load_sweep(path)
     folder = path.with_name(f"{path.stem}-campaign") if out is None else out
     check_parquet(folder)
-    store = open_store(folder, sweep, resume)
-    runs = shard_of(sweep.runs, *part)
     started = time.monotonic()
+    with ExitStack() as stack:
+        here = stack.enter_context(closing(local(jobs)))
+        there = here if scheduler is None else stack.enter_context(closing(_dask(scheduler)))
+        store = open_store(folder, sweep, resume)
+        progress = _fly(sweep, store, shard_of(sweep.runs, *part), there, here)
+    return _tell_end(store, progress, time.monotonic() - started, as_json)
+
+
+def _fly(sweep: Sweep, store: Store, runs: Sequence[Run], there: Executor, here: Executor) -> Progress:
+    """Fly there, record here, and write the tables whatever happens."""
     progress = Progress(wanted=len(runs))
     try:
-        with _ended_by_a_signal(), telling(console, folder) as tell:
-            if scheduler is None:
-                with closing(local(jobs)) as here:
-                    fly_campaign(sweep, store, runs, here, progress, tell)
-                    record_flights(sweep, store, runs, here, progress, tell)
-            else:
-                with closing(_dask(scheduler)) as there:
-                    fly_campaign(sweep, store, runs, there, progress, tell)
-                with closing(local(jobs)) as here:
-                    record_flights(sweep, store, runs, here, progress, tell)
+        with _ended_by_a_signal(), telling(show.console(), store.folder) as tell:
+            fly_campaign(sweep, store, runs, there, progress, tell)
+            record_flights(sweep, store, runs, here, progress, tell)
     except KeyboardInterrupt:
-        done = len(store.done())
-        text = f"{folder}: interrupted, {done} of {len(store.run_ids)} runs are done: --resume goes on"
-        raise CampaignInterrupted(text) from None
+        done = f"{len(store.done())} of {len(store.run_ids)} runs are done"
+        raise CampaignInterrupted(f"{store.folder}: interrupted, {done}: --resume goes on") from None
     finally:
         store.clear_partial()
         write_campaign_tables(sweep, store, progress.lost)
-    return _tell_end(store, progress, time.monotonic() - started, as_json)
+    return progress
 
 
 def rerun_run(folder: Path, run_id: str, record: Path | None, as_json: bool) -> int:
@@ -105,19 +105,6 @@ def rerun_run(folder: Path, run_id: str, record: Path | None, as_json: bool) -> 
             f"[bold red]differs in {', '.join(differ)}[/bold red]" if differ else "the same as stored, in every column"
         )
     return DIFFERS if differ else 0
-
-
-def show_campaign(folder: Path, by: Sequence[str], png: Path | None, as_json: bool) -> int:
-    """Show what is done of a campaign.
-
-    Raises
-    ------
-    CampaignError : it is none, or there is no such column.
-    """
-    from companion.cli.campaign_show import show_rows
-
-    store = Store(folder)
-    return show_rows(folder, store.rows(), len(store.run_ids), by, png, as_json)
 
 
 @contextmanager
@@ -179,7 +166,7 @@ def _tell_end(store: Store, progress: Progress, seconds: float, as_json: bool) -
     if as_json:
         show.print_json(
             {
-                "ok": not lost and not differing,
+                "ok": not lost and not differing and not progress.unrecorded,
                 "campaign": str(store.folder),
                 "runs": progress.wanted,
                 "flown": progress.done,
@@ -187,6 +174,7 @@ def _tell_end(store: Store, progress: Progress, seconds: float, as_json: bool) -
                 "failed": progress.failed,
                 "not_flown": [{"run_id": row["run_id"], "cause": row["cause"]} for row in lost],
                 "differing": differing,
+                "not_recorded": progress.unrecorded,
                 "recordings": kept,
                 "seconds": seconds,
             }
@@ -200,13 +188,15 @@ def _tell_end(store: Store, progress: Progress, seconds: float, as_json: bool) -
             soft_wrap=True,
         )
         out.print(f"[dim]companion campaign show {show.plain(shlex.quote(str(store.folder)))}[/dim]", soft_wrap=True)
+    for text in progress.unrecorded[:CAUSES]:
+        print(f"companion: could not be recorded: run {text}; --resume tries again", file=sys.stderr)
     for run_id in differing:
         print(f"companion: run {run_id}: flown again to be recorded, it differs from what is stored", file=sys.stderr)
     causes = Counter(row["cause"] for row in lost)
     for cause, count in causes.most_common(CAUSES):
         many = f"{count} runs" if count > 1 else "1 run"
         print(f"companion: {many} could not be flown: {cause}; --resume tries again", file=sys.stderr)
-    return DIFFERS if differing else 1 if lost else 0
+    return DIFFERS if differing else 1 if lost or progress.unrecorded else 0
 
 
 def _shard(text: str | None) -> tuple[int, int] | None:
@@ -218,11 +208,13 @@ def _shard(text: str | None) -> tuple[int, int] | None:
 
 
 def _row_table(run_id: str, stored: Row, again: Row) -> Table:
-    table = Table("column", "stored", "again", title=f"run {run_id}", title_justify="left")
+    """Its columns; where it differs, both values."""
+    differ = differences(stored, again)
+    table = Table("column", *(("stored", "again") if differ else ("value",)), title=f"run {run_id}")
+    table.title_justify = "left"
     for name in again:
-        same = stored.get(name) == again[name]
-        style = "" if same else "bold red"
-        table.add_row(name, *(_value(row.get(name)) for row in (stored, again)), style=style)
+        rows = (stored, again) if differ else (again,)
+        table.add_row(name, *(_value(row.get(name)) for row in rows), style="bold red" if name in differ else "")
     return table
 
 
