@@ -60,7 +60,7 @@ def show(
     json: Json = False,
 ) -> None:
     """What a campaign has found so far: flights in groups, failures by kind, pictures."""
-    from companion.cli.campaign import show_campaign
+    from companion.cli.campaign_show import show_campaign
 
     raise typer.Exit(show_campaign(folder, by or [], png, json))
 

@@ -1,6 +1,7 @@
 """`companion campaign show`: what a campaign has found so far: a table, failures gathered by kind, pictures."""
 
 import shlex
+import sys
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -13,6 +14,8 @@ from rich.table import Table
 from campaigns.clusters import Cluster, clusters
 from campaigns.errors import CampaignError
 from campaigns.show import Group, Row, flown, groups, varying
+from campaigns.sofar import rows_so_far
+from campaigns.store import Store
 from companion.cli import show
 
 MOST_CELLS = 24
@@ -28,6 +31,16 @@ LEGEND = (
 NO_TERMINAL_WIDE = 160
 MOST_CLUSTERS = 12
 MOST_IDS = 3
+
+
+def show_campaign(folder: Path, by: Sequence[str], png: Path | None, as_json: bool) -> int:
+    """Show a campaign as far as it is; returns the exit code. Parameters and errors as of `show_rows`."""
+    store = Store(folder)
+    rows = rows_so_far(store)
+    for run_id in store.unreadable:
+        problem = f"{folder / 'runs' / run_id}: damaged, and left out; remove it, and --resume flies it again"
+        print(f"companion: {problem}", file=sys.stderr)
+    return show_rows(folder, rows, len(store.run_ids), by, png, as_json)
 
 
 def show_rows(

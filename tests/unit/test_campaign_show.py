@@ -9,9 +9,15 @@ from scipy.stats import binomtest
 
 from campaigns.clusters import clusters, kind_of
 from campaigns.errors import CampaignError
+from campaigns.flying import Flown, lost_row
 from campaigns.plots import write_pictures
+from campaigns.runs import Run
 from campaigns.show import flown, groups, labels, varying, wilson
-from companion.cli.campaign_show import show_rows
+from campaigns.sofar import rows_so_far
+from campaigns.store import Store, open_store
+from campaigns.sweep import load_sweep
+from campaigns.table import write_tables
+from companion.cli.campaign_show import show_campaign, show_rows
 
 TOUCHED, LATE = "touched an obstacle at 12.31 s", "not over after 600 s of simulated time"
 
@@ -151,3 +157,64 @@ def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(CampaignError, match=r"file: cannot write the pictures: "):
         write_pictures(WINDS, [], tmp_path / "file", "winds")
+
+
+SWEEP = """\
+name: three
+worlds: [{family: gap}]
+seeds: [1, 2, 3]
+"""
+
+
+@pytest.fixture
+def three(tmp_path: Path) -> tuple[Store, tuple[Run, ...]]:
+    """A campaign of three runs, of which nothing is done."""
+    (tmp_path / "three.yaml").write_text(SWEEP)
+    sweep = load_sweep(tmp_path / "three.yaml")
+    return open_store(tmp_path / "campaign", sweep, resume=False), sweep.runs
+
+
+def came(run: Run, **other: Any) -> Flown:
+    return Flown({**lost_row(run, ""), "status": "flown", "ok": True, **other}, 1.0, 1.0, "here")
+
+
+def test_what_is_done_is_shown_at_any_moment(three: tuple[Store, tuple[Run, ...]]) -> None:
+    store, (first, second, third) = three
+    assert rows_so_far(store) == []
+    store.complete(second, came(second), 1)
+    assert [row["run_id"] for row in rows_so_far(store)] == [second.run_id]
+    # A command ends with a run that nobody could fly; the next flies it, and has not written its tables yet.
+    write_tables(
+        store.folder,
+        [{**came(second).row, "recording": ""}, {**lost_row(third, "its process died"), "recording": ""}],
+        [],
+    )
+    assert [(row["run_id"], row["status"]) for row in rows_so_far(store)] == [
+        (second.run_id, "flown"),
+        (third.run_id, "infrastructure"),
+    ]
+    store.complete(third, came(third, ok=False, cause="touched"), 1)
+    store.complete(first, came(first), 1)
+    assert [(row["run_id"], row["ok"]) for row in rows_so_far(store)] == [
+        (first.run_id, True),
+        (second.run_id, True),
+        (third.run_id, False),
+    ]
+
+
+@pytest.mark.parametrize("column", ["ok", "tracking_p95_m", "cause"])
+def test_a_damaged_result_is_left_out_and_named(
+    column: str, three: tuple[Store, tuple[Run, ...]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    store, (first, second, _) = three
+    store.complete(first, came(first, **{column: ["nonsense"]}), 1)
+    store.complete(second, came(second), 1)
+    assert show_campaign(store.folder, [], None, as_json=False) == 0
+    told = capsys.readouterr()
+    assert "1 flown of 3 runs" in told.out
+    assert f"{first.run_id}: damaged, and left out" in told.err
+
+
+def test_a_folder_that_is_no_campaign_is_one_line(tmp_path: Path) -> None:
+    with pytest.raises(CampaignError, match=r"campaign.json: cannot be read: No such file or directory"):
+        show_campaign(tmp_path, [], None, as_json=False)
