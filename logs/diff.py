@@ -102,7 +102,8 @@ def diff(
     one, other = _Side(left, wanted), _Side(right, wanted)
     found = _Fields(frozenset(ignore), tolerance)
     both = one.counts.keys() & other.counts.keys()
-    for first, second in _pairs(one.rows(both), other.rows(both)):
+    most = {topic: min(one.counts[topic], other.counts[topic]) for topic in both}
+    for first, second in _pairs(one.rows(both), other.rows(both), most):
         found.pair(first, second)
     topics = sorted(one.counts.keys() | other.counts.keys())
     numbers = {topic: (one.counts[topic], other.counts[topic]) for topic in topics}
@@ -191,9 +192,13 @@ _IMPORTED = {"Parameter": ("name", "value"), "PARM": ("Name", "Value")}
 """Parameters in what was a .ulg or a .BIN; of no system there."""
 
 
-def _pairs(one: Iterator[Row], other: Iterator[Row]) -> Iterator[tuple[Row, Row]]:
-    """Rows of the same topic and place in it, in the order in which the second of a pair comes."""
+def _pairs(one: Iterator[Row], other: Iterator[Row], most: Mapping[str, int]) -> Iterator[tuple[Row, Row]]:
+    """Rows of the same topic and place in it, in the order in which the second of a pair comes.
+
+    `most` are there by topic; what comes after finds no other and is not kept.
+    """
     waiting: tuple[dict[str, deque[Row]], dict[str, deque[Row]]] = ({}, {})
+    taken: tuple[Counter[str], Counter[str]] = (Counter(), Counter())
     sides = (one, other)
     ended = [False, False]
     while not all(ended):
@@ -201,6 +206,9 @@ def _pairs(one: Iterator[Row], other: Iterator[Row]) -> Iterator[tuple[Row, Row]
             item = next(sides[side], None)
             if item is None:
                 ended[side] = True
+                continue
+            taken[side][item.topic] += 1
+            if taken[side][item.topic] > most[item.topic]:
                 continue
             theirs = waiting[1 - side].get(item.topic)
             if theirs:

@@ -1,6 +1,7 @@
 """A smaller recording made of another, and two recordings side by side."""
 
 import math
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +88,29 @@ def test_the_first_divergence_is_named_by_message_and_field_with_how_often_and_h
     assert (field.left, field.right, field.first_ns) == (0.1, 0.25, 24_000_000)
     assert diff(Recording.open(tmp_path / "a.mcap"), Recording.open(tmp_path / "b.mcap"), ignore=["ATTITUDE.roll"]).same
     assert diff(Recording.open(tmp_path / "a.mcap"), Recording.open(tmp_path / "b.mcap"), tolerance=0.2).same
+
+
+def test_what_only_one_recording_has_more_of_is_not_kept_in_memory(tmp_path: Path) -> None:
+    count = 3000
+    kinds = m.MAVLink_system_time_message(1, 1), m.MAVLink_vfr_hud_message(1, 1, 1, 1, 1, 1)
+    sides = []
+    for many, few in (kinds, kinds[::-1]):
+        mav = m.MAVLink(None, srcSystem=1, srcComponent=1)
+        path = tmp_path / f"{len(sides)}.mcap"
+        with Recorder(path, metadata={}, threaded=False) as recorder:
+            for tick, message in enumerate([few] + [many] * count):
+                data = bytes(message.pack(mav))
+                recorder.datagram("autopilot", "rx", data, log_time_ns=tick, now_us=tick, tick=tick)
+        sides.append(Recording.open(path))
+    diff(sides[0], sides[0])  # what is made once for all
+    tracemalloc.start()
+    try:
+        found = diff(*sides)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert sorted(found.counts.values()) == [(1, count), (count, 1)]
+    assert peak < 2_500_000, peak
 
 
 def test_parameters_that_differ_are_named_with_both_values(tmp_path: Path) -> None:
