@@ -260,16 +260,18 @@ def _enum(name: str, number: int) -> str:
 def _loss(recording: Recording, flight: Flight) -> list[tuple[str, int]]:
     """Counters of loss: the sequence's, the recorder's, the sockets'."""
     found: dict[str, int] = {}
-    vehicle = flight.traffic.vehicle
+    told, vehicle = losses(flight), flight.traffic.vehicle
     if vehicle in flight.traffic.tallies:
         found["packets missing by sequence"] = flight.traffic.tallies[vehicle].lost
+        link, _, system, component = vehicle
+        told.pop(f"{link}.{system}.{component}.sequence_gaps", None)  # the same packets, counted by the recorder
     for name, text in recording.metadata.get("recorder", {}).items():
         if name.startswith("dropped_") and text.isdecimal():
             found[f"not recorded, {name.removeprefix('dropped_')}"] = int(text)
     dropouts = recording.metadata.get("import", {}).get("dropouts", "")
     if dropouts.isdecimal():
         found["dropouts of the log"] = int(dropouts)
-    found |= losses(flight)
+    found |= told
     if recording.gaps:
         found["gaps between parts"] = len(recording.gaps)
     return list(found.items())[:24]

@@ -515,4 +515,5 @@ def test_words_in_narrow_tables_stay_whole(browser: Browser, tmp_path):
     assert page.box("[data-table=Senders] tbody tr")[3] < 50  # two lines at most
     assert page.js("document.documentElement.scrollWidth") == 390
     assert page.js("document.querySelector('.failure').textContent") == "min clearance [m]: 0.5381, expected ≥ 2"
+    assert page.js("document.querySelector('.colour-legend select').value") == "speed"  # no error is known
     page.close()

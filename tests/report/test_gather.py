@@ -1,5 +1,6 @@
 """A report of each kind of recording: it says what the flight's verdict says, and what a recording does not hold."""
 
+import gzip
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -245,6 +246,14 @@ def test_another_programs_log_is_told_as_its_import_is_and_held_against_a_record
     assert json.dumps(report.to_json()) == json.dumps(whole.to_json())
     assert dict(report.header.facts)["recording"] == log.name
     assert size == page.stat().st_size
+
+
+def test_packets_that_are_missing_are_counted_once_though_the_recorder_counted_them_too(tmp_path):
+    log = tmp_path / "a.tlog"
+    log.write_bytes(gzip.decompress((TLOGS / "px4-offboard-streams.tlog.gz").read_bytes()))
+    report, _, _ = write_report(log, tmp_path / "r.html")
+    (missing,) = [count for _, count in report.header.loss if count]
+    assert missing == next(row[3] for t in report.tables if t.title == "Senders" for row in t.rows if row[1] == "1/1")
 
 
 @pytest.mark.parametrize("name", ["a.tlog", "a.BIN", "a.mcap", "a.txt"])

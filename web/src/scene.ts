@@ -55,6 +55,7 @@ export class FlightScene {
   constructor(private json: SceneJson, private readonly state: State, private readonly live: boolean) {
     const { renderer } = this.painter;
     this.tracks = new Tracks(json);
+    if (!live && !this.tracks.judged) this.tint.choose("speed");
     this.ways.replace(json.plans ?? []);
     this.movers.replace(json.movers ?? []);
     const compass = svg("svg", { viewBox: "-28 -28 56 56", width: 56, height: 56, class: "compass" }, svg("circle", { r: 26, class: "dial" }), this.needle);

@@ -12,10 +12,11 @@ type Choice = keyof typeof CHOICES;
 export class Tint {
   private by: Choice = "error";
   private readonly ends = h("span.legend-ends");
+  private readonly choice: HTMLSelectElement;
   readonly element: HTMLElement;
 
   constructor(changed: () => void) {
-    const choice = h<HTMLSelectElement>("select", {
+    const choice = this.choice = h<HTMLSelectElement>("select", {
       "aria-label": "colour of the path", title: "colour of the path",
       onchange: () => {
         this.by = choice.value as Choice;
@@ -23,6 +24,11 @@ export class Tint {
       },
     }, Object.entries(CHOICES).map(([name, [label]]) => h("option", { value: name }, label)));
     this.element = h("div.colour-legend", choice, h("span.ramp", { style: { "background-image": RAMP_CSS } }), this.ends);
+  }
+
+  choose(by: Choice): void {
+    this.by = by;
+    this.choice.value = by;
   }
 
   /** Linear red, green, blue of each of the path's samples `kept`; grey where nothing is known. */

@@ -35,6 +35,11 @@ export class Tracks {
     return this.path.length ? this.path.t.at(this.path.length - 1) : 0;
   }
 
+  /** Whether anything says where it should have been. */
+  get judged(): boolean {
+    return this.path.error.length > 0 || this.reference.length > 0;
+  }
+
   /** Where the i-th sample of the path was. */
   place(i: number): Point {
     return [this.path.n.at(i), this.path.e.at(i), this.path.u.at(i)];
