@@ -129,6 +129,12 @@ class Parts:
         assert self.container is not None
         return self.container
 
+    @property
+    def descriptor(self) -> int:
+        """Of the file that is being written."""
+        assert self._file is not None
+        return self._file.fileno()
+
     def close(self) -> None:
         """Leave the present part as it is."""
         if self._file is not None:

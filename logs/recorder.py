@@ -34,6 +34,7 @@ from logs.mirrors import Mirror
 from logs.parameters import ATTACHMENT as PARAMETERS
 from logs.parts import MOST_PARTS, Gap, Parts, Room, Rotation
 from logs.scribe import Item, Scribe, TableItem
+from logs.settling import Settler
 from wire.datagram import Address
 
 FLUSH_S = 0.4
@@ -90,9 +91,9 @@ class Recorder:
     metadata : named tables of strings, written first ("run": version, seed, endpoints ...).
     attachments : files written first (mission ...). Parameters among them (`logs.parameters`) are kept up to date:
         further parts begin with what has been told since, and every part in which some were told ends with it.
-    threaded : True: a thread frames, transcodes and writes, so the caller only pays for a queue, and the file is
-        flushed every `FLUSH_S` of real time. False: everything at once in the caller, flushed every `FLUSH_S` of log
-        time; the same calls then give a byte-identical file.
+    threaded : True: a thread frames, transcodes and writes, so the caller only pays for a queue; the file is flushed every
+        `FLUSH_S` of real time, and another thread has it put on the disk (`logs.settling`). False: everything at once in
+        the caller, flushed every `FLUSH_S` of log time; the same calls then give a byte-identical file.
     rotation : when a part ends; checked where the file is flushed.
     room : how much space must be left on the disk; watched with a thread only.
     losses : further counters of what is lost, such as the sockets'; read from the writer's thread.
@@ -150,7 +151,10 @@ class Recorder:
         self._taken_bytes = 0
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
+        self._settler: Settler | None = None
         if threaded:
+            self._settler = Settler(f"recorder {path.name} to disk")
+            self._settler.follow(self._parts.descriptor)
             self._thread = threading.Thread(target=self._run, name=f"recorder {path.name}", daemon=True)
             self._thread.start()
 
@@ -249,6 +253,9 @@ class Recorder:
             self._break(error)
         finally:
             self._parts.close()
+            if self._settler is not None:
+                self._settler.close()
+                self._unsettled()
         if self.failure:
             missing = self.counters.dropped_raw
             where = "at its end" if self._gap is not None else self._where
@@ -370,10 +377,17 @@ class Recorder:
             self._losses_at = now_ns + _ns(LOSSES_S)
             self._attempt(self._record_losses)
         self._attempt(self._container.flush)
+        self._unsettled()
         if self._gap is None and self._threaded:
             self._watch_room()
         if self._gap is None and self._part_is_full(now_ns):
             self._rotate()
+
+    def _unsettled(self) -> None:
+        """Tell once that the disk does not take what the system wrote for us."""
+        if self._settler is not None and self._settler.trouble and not self.failure:
+            self.failure = f"the disk failed: {self._settler.trouble}"
+            self._notices.append(f"it is not sure that anything is recorded: {self.failure}")
 
     def _attempt(self, action: Callable[[], None]) -> None:
         if self._gap is not None:
@@ -440,6 +454,8 @@ class Recorder:
                 self._open_gap(_reason(error))
             return
         self._scribe.begin(self._container)
+        if self._settler is not None:
+            self._settler.follow(self._parts.descriptor)
         self._resumed_at = None if self._gap is None or self._tables else self._gap.missing
         self._gap = None
         self._attempt(self._resume)

@@ -1,6 +1,7 @@
 """The recorder, judged by the plain `mcap` reader and its protobuf decoder."""
 
 import errno
+import os
 import threading
 from collections import Counter
 from pathlib import Path
@@ -12,7 +13,9 @@ from mcap_protobuf.decoder import DecoderFactory
 
 from logs import Attachment, Direction, Recording, RecordingError, schema
 from logs import recorder as recorder_module
+from logs import settling as settling_module
 from logs.container import Container
+from logs.parts import Rotation
 from logs.recorder import Recorder
 from wire.dialect import mavlink
 
@@ -244,6 +247,43 @@ def test_a_writer_far_behind_gives_up_decoding_first_and_counts_it(
     assert counters.rx == {"autopilot": 300}
     assert counters.dropped_raw == 100
     assert (counters.decoded, counters.dropped_decoded) == (99, 201)  # of the last 100 waiting one is the table
+
+
+def test_a_thread_has_the_file_put_on_the_disk_while_it_is_written_and_all_of_it_at_the_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(settling_module, "SYNC_S", 0.02)
+    monkeypatch.setattr(recorder_module, "FLUSH_S", 0.0)
+    sizes: list[tuple[int, int]] = []
+
+    def sync(descriptor: int) -> None:
+        sizes.append((os.fstat(descriptor).st_ino, os.fstat(descriptor).st_size))
+
+    monkeypatch.setattr(settling_module, "_sync", sync)
+    path = tmp_path / "a.mcap"
+    with Recorder(path, metadata={}, threaded=True, rotation=Rotation(size_bytes=9_000)) as recorder:
+        for _ in range(4):
+            record_captured(recorder)
+            recorder._wake.wait(0.1)
+    assert len(recorder.paths) > 2
+    for part in recorder.paths:
+        of_part = [size for inode, size in sizes if inode == part.stat().st_ino]
+        assert of_part[-1] == part.stat().st_size
+    assert len(sizes) > len(recorder.paths)
+    assert not [thread for thread in threading.enumerate() if thread.name.startswith("recorder")]
+
+
+def test_a_disk_that_fails_behind_our_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def sync(descriptor: int) -> None:
+        raise OSError(errno.EIO, "Input/output error")
+
+    monkeypatch.setattr(settling_module, "_sync", sync)
+    with (
+        pytest.raises(RecordingError, match="the disk failed: Input/output error"),
+        Recorder(tmp_path / "a.mcap", metadata={}, threaded=True) as recorder,
+    ):
+        recorder.datagram("autopilot", "rx", heartbeat(), log_time_ns=1, now_us=1, tick=0)
+    assert recorder.counters.dropped_raw == 0
 
 
 def test_what_waits_is_bounded_in_bytes_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
