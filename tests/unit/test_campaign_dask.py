@@ -7,7 +7,6 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, closing, contextmanager, suppress
@@ -18,34 +17,20 @@ import pytest
 
 pytest.importorskip("distributed", reason="the extra dask is not installed")
 
+from dask_work import raises_hangs_or_dies, square, squares_slowly
+from pyarrow import parquet
+
+from campaigns.campaign import Progress, fly_campaign, write_campaign_tables
 from campaigns.errors import SchedulerError
 from campaigns.executors.dask import dask
 from campaigns.executors.versions import difference, versions
+from campaigns.flying import fly_run
+from campaigns.store import open_store
+from campaigns.sweep import load_sweep
+from campaigns.table import COLUMNS
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.slow
-
-
-def square(number: int) -> int:
-    return number * number
-
-
-def squares_slowly(item: tuple[Path, int]) -> int:
-    """Tells who begins it."""
-    folder, number = item
-    (folder / f"{number} {os.getpid()}").touch()
-    time.sleep(0.1)
-    return number * number
-
-
-def raises_hangs_or_dies(number: int) -> int:
-    if number == 1:
-        raise ValueError("one is not to be")
-    if number == 2:
-        time.sleep(600.0)
-    if number == 3:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return number
 
 
 @contextmanager
@@ -75,6 +60,16 @@ def started(module: str, *arguments: str, at: str, search: Sequence[Path]) -> It
         process.stderr.close()
 
 
+SWEEP = """\
+name: gap
+worlds: [{family: gap}]
+winds: [[0, 0], [6, 0]]
+seeds: [1, 2, 3, 4]
+limit_s: 6
+timeout_s: 120
+recordings: {failures: 0, sample: 0}
+"""
+"""Flights that are cut short are flights, too."""
 HERE = (ROOT, ROOT / "tests" / "unit")
 ONE_SOURCE = """\
 from campaigns.executors import versions
@@ -131,22 +126,10 @@ def test_a_worker_of_other_versions_is_refused_though_it_comes_late(
             list(executor.map(square, [1]))
 
 
-def test_a_worker_killed_in_mid_campaign_costs_no_result_and_doubles_none(cluster: Cluster, tmp_path: Path) -> None:
-    items = [(tmp_path, number) for number in range(30)]
-    outcomes = []
+def test_what_raises_hangs_or_dies_costs_its_own_item(cluster: Cluster) -> None:
     with closing(dask(cluster.address)) as executor:
-        for outcome in executor.map(squares_slowly, items):
-            outcomes.append(outcome)
-            if len(outcomes) == 5:
-                os.kill(cluster.loose, signal.SIGKILL)
-        rest = list(executor.map(raises_hangs_or_dies, range(5), timeout_s=1.0, retries=1))
-    assert [o.item for o in sorted(outcomes, key=lambda o: o.item)] == items
-    assert all(o.result == o.item[1] ** 2 and not o.error and not o.infrastructure for o in outcomes)
-    begun = [name.name.split() for name in tmp_path.iterdir()]
-    assert len({process for _, process in begun}) == 2, "both worked"
-    assert len(begun) > len(items), "what the dead one had was begun again"
-
-    told = {o.item: (o.result, o.error.partition(" at ")[0], o.infrastructure, o.attempts) for o in rest}
+        outcomes = list(executor.map(raises_hangs_or_dies, range(5), timeout_s=1.0, retries=1))
+    told = {o.item: (o.result, o.error.partition(" at ")[0], o.infrastructure, o.attempts) for o in outcomes}
     assert told == {
         0: (0, "", "", 1),
         1: (None, "ValueError", "", 1),
@@ -156,18 +139,39 @@ def test_a_worker_killed_in_mid_campaign_costs_no_result_and_doubles_none(cluste
     }
 
 
+def test_a_campaign_whose_worker_is_killed_has_the_rows_of_this_machine_each_once(
+    cluster: Cluster, tmp_path: Path
+) -> None:
+    (tmp_path / "gap.yaml").write_text(SWEEP)
+    sweep = load_sweep(tmp_path / "gap.yaml")
+    store = open_store(tmp_path / "campaign", sweep, resume=False)
+    progress = Progress(wanted=len(sweep.runs))
+
+    def kill_after_the_second(so_far: Progress) -> None:
+        if so_far.now == 2:
+            os.kill(cluster.loose, signal.SIGKILL)
+
+    with closing(dask(cluster.address)) as executor:
+        fly_campaign(sweep, store, sweep.runs, executor, progress, kill_after_the_second)
+    write_campaign_tables(sweep, store, progress.lost)
+    assert (progress.now, progress.lost) == (len(sweep.runs), [])
+    here = [{**fly_run(run).row, "recording": ""} for run in sweep.runs]
+    assert parquet.read_table(store.folder / "runs.parquet").to_pylist() == [
+        {name: row[name] for name in COLUMNS} for row in here
+    ]
+
+
 @pytest.mark.parametrize("fate", [signal.SIGSTOP, signal.SIGKILL])
 def test_a_scheduler_lost_in_mid_campaign_is_one_line_after_the_results_so_far(
     cluster: Cluster,
     fate: signal.Signals,
-    tmp_path: Path,
     capfd: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     with closing(dask(cluster.address)) as executor:
         monkeypatch.setattr("campaigns.executors.dask.QUIET_S", 0.5)
         monkeypatch.setattr("campaigns.executors.dask.ANSWER_S", 1.0)
-        outcomes = executor.map(squares_slowly, [(tmp_path, number) for number in range(100)])
+        outcomes = executor.map(squares_slowly, range(100))
         assert next(outcomes).result is not None
         os.kill(cluster.scheduler, fate)
         with pytest.raises(SchedulerError, match="^" + re.escape(f"{cluster.address}: the scheduler is gone") + "$"):
