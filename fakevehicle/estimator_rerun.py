@@ -117,8 +117,10 @@ def _coerced(changes: Mapping[str, float]) -> dict[str, float | int]:
             near = difflib.get_close_matches(name, _KNOWN, n=1)
             meant = f", did you mean {near[0]}?" if near else f": expected one of {', '.join(_KNOWN)}"
             raise EstimatorRerunError(f"--set {name}: the estimator has no such parameter{meant}")
+        if not isinstance(value, int | float):
+            raise EstimatorRerunError(f"--set {name}: found {value!r}, expected a number")
         try:
             values[name] = _KNOWN.describe(name).coerced(float(value))
-        except (TypeError, ValueError) as error:
+        except ValueError as error:
             raise EstimatorRerunError(f"--set {name}: {error}") from error
     return values

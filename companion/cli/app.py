@@ -191,11 +191,12 @@ def mission_convert(
     source: Annotated[Path, typer.Argument(metavar="IN", help="YAML mission, QGroundControl .plan, or QGC WPL 110.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Its ending says how: .yaml, .plan, .waypoints.")],
     force: Force = False,
+    json: Json = False,
 ) -> None:
     """Write a mission in another format; what that format cannot say is told."""
     from companion.cli.convert import convert_mission
 
-    raise typer.Exit(convert_mission(source, target, force))
+    raise typer.Exit(convert_mission(source, target, force, json))
 
 
 @app.command()

@@ -17,25 +17,24 @@ from companion.planfiles.items import ItemFlaw
 from companion.planfiles.qgc import read_plan, write_plan
 from companion.planfiles.wpl import read_wpl, write_wpl
 from companion.planfiles.writing import from_steps
+from logs.export import unfinished
 
 PLAN, WPL, YAML = (".plan",), (".waypoints", ".txt", ".mission"), (".yaml", ".yml")
 USUAL_SPEED = 5.0
 """QGroundControl's own default of a hover speed [m/s]."""
 
 
-def convert_mission(source: Path, target: Path, force: bool) -> int:
+def convert_mission(source: Path, target: Path, force: bool, as_json: bool) -> int:
     """Write `source` as the format that `target` ends with; what cannot be said there is told."""
     if target.suffix not in PLAN + WPL + YAML:
         known = ", ".join(PLAN + WPL + YAML)
         raise CompanionError(f"{target}: found the ending {target.suffix or 'none'}, expected one of {known}")
-    if target.exists() and not force:
-        raise CompanionError(f"{target}: is there already; --force replaces it")
-    data = read_mission_file(source)
-    text, unsaid = converted(data, str(source), target.suffix)
-    try:
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise CompanionError(f"{target}: cannot be written: {error.strerror or error}") from error
+    text, unsaid = converted(read_mission_file(source), str(source), target.suffix)
+    with unfinished(target, force) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    if as_json:
+        show.print_json({"ok": True, "path": str(target), "not_kept": unsaid})
+        return 0
     out = show.console()
     for what in unsaid:
         out.print(show.plain(f"not kept: {what}"), soft_wrap=True)

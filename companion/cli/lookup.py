@@ -1,5 +1,6 @@
 """`companion log cat | filter | diff | export | import`: what is in recordings, and what becomes of them elsewhere."""
 
+import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -43,8 +44,8 @@ def cat(path: Path, wanted: Selection, limit: int | None, as_json: bool) -> int:
             sys.stdout.write(line(row) if as_json else _line(row, start_ns))
             printed += 1
         sys.stdout.flush()
-    except BrokenPipeError:  # `| head` has seen enough
-        sys.stderr.close()
+    except BrokenPipeError:  # `| head` has seen enough; what is still to be flushed at the end goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     if not printed:
         raise nothing_left(recording, wanted)

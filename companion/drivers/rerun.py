@@ -1,6 +1,7 @@
 """A recording again: its inputs into a fresh core, tick by tick, and every output held against the recorded one."""
 
 import json
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -10,7 +11,7 @@ from companion.drivers.changes import Changes, changed_config, changed_mission
 from companion.drivers.recording import CONFIG_METADATA, MISSION_ATTACHMENT, compared, entries, tick_record, to_input
 from companion.drivers.tick import Tick
 from companion.drivers.worldfiles import recorded_mission
-from companion.errors import RerunError
+from companion.errors import MissionError, RerunError
 from logs.compare import Comparison, Output, compare
 from logs.errors import RecordingError
 from logs.filter import SEAM
@@ -52,7 +53,14 @@ def fresh_companion(recording: Recording, changes: Changes = NOTHING) -> Compani
         raise RerunError(f"{recording.path}: its configuration is not one of this version: {error}") from error
     file = f"{recording.path}: {MISSION_ATTACHMENT}{' as changed' if changes else ''}"
     data = changed_mission(attachment.data, changes, file)
-    return Companion(recorded_mission(recording, data, file), changed_config(config, changes) if changes else config)
+    try:
+        mission = recorded_mission(recording, data, file)
+    except MissionError as error:
+        if data == attachment.data:
+            raise
+        # The numbers of lines are those of a text that nobody has seen.
+        raise MissionError(file, [re.sub(r"^line \d+: ", "", problem) for problem in error.problems]) from error
+    return Companion(mission, changed_config(config, changes) if changes else config)
 
 
 def rerun(

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+import typer
 from mcap.reader import make_reader
 from mcap.writer import Writer
 from mcap_protobuf.decoder import DecoderFactory
@@ -191,14 +192,14 @@ def test_a_change_to_what_it_was_changes_nothing(recording, capsys):
 @pytest.mark.parametrize(
     ("text", "error", "told"),
     [
-        ("limits.climb", RerunError, "expected KEY=VALUE"),
+        ("limits.climb", typer.BadParameter, "expected KEY=VALUE"),
         ("limts.climb=1", RerunError, "limts.climb: found an unknown key"),
-        ("limits.climb=fast", MissionError, "limits.climb: found 'fast'"),
+        ("limits.climb=fast", MissionError, "mission.yaml as changed: limits.climb: found 'fast'"),
         ("limits.clim=1", MissionError, "did you mean climb"),
         ("seed=fast", RerunError, "seed: found 'fast', expected a valid integer"),
         ("steps.99.hold=1", RerunError, "found '99', expected the number of one of"),
         ("name.first=1", RerunError, "expected a mapping or a list"),
-        ("seed=[", RerunError, "expected a value as YAML"),
+        ("seed=[", typer.BadParameter, "expected a value as YAML"),
     ],
 )
 def test_a_change_that_has_no_place_is_one_line_that_names_it(recording, text, error, told):

@@ -107,7 +107,7 @@ def test_a_recording_without_sensors_and_a_parameter_that_is_none_are_one_line(s
     for text, told in (
         ("EKF2_GPS_P_NOIS=1", "did you mean EKF2_GPS_P_NOISE"),
         ("EKF2_GPS_P_NOISE=-1", "outside"),
-        ("EKF2_GPS_P_NOISE=much", "EKF2_GPS_P_NOISE"),
+        ("EKF2_GPS_P_NOISE=much", "EKF2_GPS_P_NOISE: found 'much', expected a number"),
         ("limits.speed=1", "no such parameter"),
     ):
         with pytest.raises(EstimatorRerunError, match=told):

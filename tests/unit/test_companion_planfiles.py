@@ -9,7 +9,7 @@ import pytest
 import yaml
 from pymavlink import mavwp
 
-from companion.cli.convert import converted
+from companion.cli.convert import convert_mission, converted
 from companion.errors import MissionError
 from companion.geodesy import Geodetic
 from companion.missionfile import parse_mission
@@ -17,6 +17,7 @@ from companion.planfiles import is_plan_file, read
 from companion.planfiles.items import Item, ItemFlaw
 from companion.planfiles.reading import READERS, to_steps
 from companion.planfiles.writing import from_steps
+from logs.errors import RecordingError
 
 HOME = [47.397742, 8.545594, 488.0]
 
@@ -404,3 +405,15 @@ def _inside(value):
         yield value
         for inner in value.values() if isinstance(value, dict) else value:
             yield from _inside(inner)
+
+
+def test_a_conversion_replaces_nothing_unasked_and_says_what_is_lost_as_json_too(tmp_path, capsys):
+    source, target = tmp_path / "barn.yaml", tmp_path / "barn.plan"
+    source.write_text(FLOWN, encoding="utf-8")
+    assert convert_mission(source, target, force=False, as_json=True) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["ok"], told["path"]) == (True, str(target))
+    assert json.loads(target.read_text())["fileType"] == "Plan"
+    with pytest.raises(RecordingError, match="is there already; --force replaces it"):
+        convert_mission(source, target, force=False, as_json=True)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["barn.plan", "barn.yaml"]
