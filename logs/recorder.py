@@ -91,9 +91,9 @@ class Recorder:
     metadata : named tables of strings, written first ("run": version, seed, endpoints ...).
     attachments : files written first (mission ...). Parameters among them (`logs.parameters`) are kept up to date:
         further parts begin with what has been told since, and every part in which some were told ends with it.
-    threaded : True: a thread frames, transcodes and writes, so the caller only pays for a queue; the file is flushed every
-        `FLUSH_S` of real time, and another thread has it put on the disk (`logs.settling`). False: everything at once in
-        the caller, flushed every `FLUSH_S` of log time; the same calls then give a byte-identical file.
+    threaded : True: a thread frames, transcodes and writes, so the caller only pays for a queue; the file is flushed
+        every `FLUSH_S` of real time, and another thread has it put on the disk (`logs.settling`). False: everything at
+        once in the caller, flushed every `FLUSH_S` of log time; the same calls then give a byte-identical file.
     rotation : when a part ends; checked where the file is flushed.
     room : how much space must be left on the disk; watched with a thread only.
     losses : further counters of what is lost, such as the sockets'; read from the writer's thread.
