@@ -12,11 +12,13 @@ a search sees nothing but costs: the same costs, the same search.
 """
 
 from collections.abc import Callable, Iterable
+from importlib.util import find_spec
 from typing import Any, Literal, get_args
 
 import numpy as np
 from scipy.optimize import Bounds, differential_evolution
 
+from companion.errors import CompanionError
 from fakevehicle.vocabulary import FloatArray
 from planner.search import Aoa, Haoaroa, Roa
 
@@ -43,9 +45,9 @@ def search(method: str, evaluate: Evaluate, start: FloatArray, *, budget: int, p
     Raises
     ------
     ValueError : no such method, or a budget that does not pay for one population.
+    CompanionError : `cma`, and the package is not there.
     """
-    if method not in METHODS:
-        raise ValueError(f"method: found {method!r}, expected one of {', '.join(METHODS)}")
+    available(method)
     rounds = budget // population
     if rounds < 1:
         raise ValueError(f"budget: found {budget}, expected at least the population, {population}")
@@ -60,6 +62,14 @@ def search(method: str, evaluate: Evaluate, start: FloatArray, *, budget: int, p
         while not own.done:
             own.tell(evaluate(own.ask()))
     return rounds * population
+
+
+def available(method: str) -> None:
+    """Nothing when a method is there; raises as `search`."""
+    if method not in METHODS:
+        raise ValueError(f"method: found {method!r}, expected one of {', '.join(METHODS)}")
+    if method == "cma" and find_spec("cmaes") is None:
+        raise CompanionError("method cma needs the package cmaes: pip install 'mavlink-companion[tune]'")
 
 
 def _evolve(evaluate: Evaluate, start: FloatArray, rounds: int, population: int, generator: Any) -> None:

@@ -110,8 +110,8 @@ class Weights(_Model):
 
     @model_validator(mode="after")
     def _any(self) -> "Weights":
-        if not self.tracking + self.overshoot + self.activity + self.margin > 0.0:
-            raise ValueError("found only zeros, expected a weight above 0")
+        if not self.tracking + self.activity + self.margin > 0.0:
+            raise ValueError("found only zeros beside overshoot, expected a weight above 0")
         return self
 
 
@@ -183,6 +183,11 @@ class Spec(_Model):
         """Every course in every wind."""
         winds = [Wind() if isinstance(w, str) else Wind(w.mean, w.gusts, w.squall) for w in self.winds]
         return tuple((c.course(), wind) for c in self.courses for wind in winds)
+
+    def weighed(self) -> dict[str, float]:
+        """The weights; where nothing is a step, overshoot has none."""
+        weights: dict[str, float] = self.weights.model_dump()
+        return weights if any(c.step is not None for c in self.courses) else {**weights, "overshoot": 0.0}
 
     def seeds(self, unseen: bool) -> tuple[int, ...]:
         """Seeds of the flights: of the cost, or of the judgement; children of one SeedSequence, so none in both."""

@@ -63,7 +63,7 @@ class Evaluator:
 
     def __init__(self, spec: Spec, executor: Executor, journal: Journal | None, progress: Progress | None) -> None:
         self._spec, self._executor, self._journal, self._progress = spec, executor, journal, progress
-        self._weights = spec.weights.model_dump()
+        self._weights = spec.weighed()
         self._seen: dict[str, Parts] = {}
         self.history: list[float] = []
         self.best: dict[str, float] = {}
@@ -130,7 +130,7 @@ def find(
     cost = Evaluator(spec, executor, journal, progress)
     s = spec.search
     search(method, cost, spec.start(), budget=s.budget, population=s.population, seed=s.seed)
-    before = score(cost.base, cost.unit, spec.weights.model_dump())
+    before = score(cost.base, cost.unit, spec.weighed())
     return Found(method, cost.best, cost.cost, cost.parts, before, cost.base, np.array(cost.history))
 
 

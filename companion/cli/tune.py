@@ -14,6 +14,7 @@ from campaigns.executors import local
 from campaigns.tuning import report
 from campaigns.tuning.compare import about
 from campaigns.tuning.journal import Journal
+from campaigns.tuning.optimisers import available
 from campaigns.tuning.spec import Spec, load_spec
 from campaigns.tuning.tune import Found, find, judged
 from companion.cli import show
@@ -26,8 +27,7 @@ def tune_gains(path: Path, method: str, jobs: int, out: Path | None, resume: boo
     """Tune as the file at `path` says, into the folder `out`; exit code 0."""
     console = show.console()
     spec = load_spec(path)
-    if method == "cma":
-        _wanted()
+    available(method)
     folder = out if out is not None else Path("tunings") / f"{path.stem}-{method}"
     journal = Journal(folder, about(spec, method), resume=resume)
     _keep(path, folder / SPEC)
@@ -56,14 +56,6 @@ def tune_gains(path: Path, method: str, jobs: int, out: Path | None, resume: boo
         return 0
     _print(spec, found, table, folder)
     return 0
-
-
-def _wanted() -> None:
-    """CMA-ES comes by an extra."""
-    from importlib.util import find_spec
-
-    if find_spec("cmaes") is None:
-        raise CompanionError("--method cma needs the package cmaes: pip install 'mavlink-companion[tune]'")
 
 
 def _keep(path: Path, copy: Path) -> None:
