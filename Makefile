@@ -9,7 +9,7 @@ MAVPROXY := $(CURDIR)/$(PEERS)/mavproxy
 PACKAGES := companion fakevehicle planner logs wire campaigns
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help demo test soak test-clients lint check format bench bench-peers pin readers web clean
+.PHONY: help demo test soak test-clients lint check format bench bench-peers paper pin readers web clean
 help:            ## show this
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
@@ -46,6 +46,10 @@ bench: $(STAMP)  ## benchmarks: figures and ratios, about ten minutes
 	PYTHONPATH=$(PEERS) $(BIN)/python -m benchmarks
 
 bench-peers: $(PEERS)/.installed ## what benchmarks compare with, in a folder of its own, not in the environment
+
+paper: $(STAMP)  ## the paper's tables and figures again, into docs: half an hour on two quiet cores; goes on where it was
+	$(BIN)/companion paper -j $(JOBS) --out paper
+	mkdir -p docs/paper && cp paper/paper/* docs/paper/ && cp paper/paper.md docs/
 
 pin: $(STAMP)    ## write constraints.txt from what is installed now
 	{ head -1 constraints.txt; $(BIN)/pip freeze --all --exclude-editable | grep -v '^pip==' ; } > constraints.tmp && mv constraints.tmp constraints.txt

@@ -78,7 +78,7 @@ def refuted(fact: bool) -> Verdict:
 RIVALS = tuple(m for m in printed.METHODS if m != "haoaroa")
 
 
-_TIMES = " {{{rival}_ratio:.4g}} ({{{rival}_low:.4g}} to {{{rival}_high:.4g}})"
+_TIMES = " {#_ratio:%} ({#_low:%} to {#_high:%})"
 
 
 def pair(results: Results, column: str, method: str, rival: str) -> Mapping[str, Any]:
@@ -93,8 +93,10 @@ def clearly(row: Mapping[str, Any]) -> bool:
     return row["low"] is not None and row["low"] > 1.0
 
 
-def ahead(column: str, rivals: tuple[str, ...], sentence: str, method: str = "haoaroa") -> Callable[[Results], Finding]:
-    """A rule: the method has less of a column than each rival, each with its interval beyond zero."""
+def ahead(
+    column: str, rivals: tuple[str, ...], sentence: str, method: str = "haoaroa", form: str = ".3g"
+) -> Callable[[Results], Finding]:
+    """A rule: the method has less of a column than each rival, each ratio with its interval above one."""
 
     def rule(results: Results) -> Finding:
         rows = [pair(results, column, method, rival) for rival in rivals]
@@ -102,7 +104,8 @@ def ahead(column: str, rivals: tuple[str, ...], sentence: str, method: str = "ha
         told = []
         for rival, row in zip(rivals, rows, strict=True):
             figures |= {f"{rival}_{name}": row[name] for name in ("ratio", "low", "high")}
-            told.append(printed.METHODS[rival] + (_TIMES.format(rival=rival) if row["low"] is not None else " -"))
+            times = _TIMES.replace("#", rival).replace("%", form) if row["low"] is not None else " -"
+            told.append(printed.METHODS[rival] + times)
         return Finding(held(all(map(clearly, rows))), sentence + ": " + ", ".join(told), figures)
 
     return rule
@@ -126,8 +129,8 @@ def same_grid(results: Results) -> Finding:
     equal = row["largest"] is not None and row["largest"] < 1e-6
     return Finding(
         Verdict.IMPOSSIBLE if equal else held(clearly(row)),
-        "both find a shortest way on their grid, so on one grid the lengths are equal: here the largest difference in "
-        "{n} worlds is {largest:.1g} m",
+        "both find a shortest way on their grid, so on one grid the lengths are equal: here the largest difference "
+        "in {n} worlds is {largest:.1g} m",
         figures,
     )
 
@@ -163,21 +166,16 @@ def flown_clear(results: Results) -> Finding:
 
 def corners(results: Results) -> Finding:
     """Whether A*'s and JPS's ways turn on the spot, and HAOAROA's never."""
-    rows = results["planners"]
-    sharp = [row for row in rows if row["method"] in ("astar", "jps") and row["certified"]]
-    ours = [row["curvature_max"] for row in rows if row["method"] == "haoaroa"]
-    figures = {
-        "sharp": sum(row["curvature_max"] is None for row in sharp),
-        "of": len(sharp),
-        "curvature": max((c for c in ours if c is not None), default=None),
-    }
-    good = figures["sharp"] == figures["of"] and None not in ours
+    by = {(row["family"], row["method"]): row for row in results["planners"] if row["certified"]}
+    families = {row["family"] for row in results["planners"]}
+    ours = [by[f, "haoaroa"]["curvature_max"] for f in families if (f, "haoaroa") in by]
+    stops = [f for f in families if all((f, m) in by and by[f, m]["curvature_max"] is None for m in ("astar", "jps"))]
+    smooth = len(ours) == len(families) and None not in ours
+    figures = {"stops": len(stops), "of": len(families), "curvature": max(ours) if smooth else None}
     return Finding(
-        held(good),
-        "A* and JPS stop and turn on the spot in {sharp} of {of} families; HAOAROA's median curvature is at most "
-        "{curvature:.2f} per metre"
-        if figures["curvature"] is not None
-        else "A* and JPS stop in {sharp} of {of} families",
+        held(smooth and len(stops) == len(families)),
+        "A* and JPS stop and turn on the spot in {stops} of {of} families of worlds"
+        + ("; HAOAROA's median curvature is at most {curvature:.2f} per metre" if smooth else ""),
         figures,
     )
 
@@ -221,7 +219,7 @@ def ackley_zero(results: Results) -> Finding:
     figures = dict(equations.ackley())
     return Finding(
         refuted(figures["at_minimum"] != 0.0),
-        "added up as it is written, its formula gives {at_minimum:.2g} at its minimum in binary64",
+        "added up as it is written, its formula gives {at_minimum:.2g} at its minimum in double precision",
         figures,
     )
 
@@ -237,9 +235,8 @@ def all_reached(results: Results) -> Finding:
     }
     return Finding(
         held(figures["exact"] == figures["runs"]),
-        "{exact} of {runs} runs end at f* exactly, {bare} near enough; with a polish by gradient, which is no part of "
-        "it, "
-        "{polished}",
+        "{exact} of {runs} runs end at f* exactly, {bare} near enough; with a polish by gradient, which is no part "
+        "of it, {polished}",
         figures,
     )
 
@@ -282,8 +279,7 @@ def table_3(results: Results) -> Finding:
     return Finding(
         refuted(figures["std"] > 0),
         "no {runs} numbers have such a worst, mean and std in {std} of {rows} rows (std is too small by up to a "
-        "factor of "
-        "{factor:.0f}), nor such a mean in {mean}; {below_best} mean is below its own best",
+        "factor of {factor:.0f}), nor such a mean in {mean}; {below_best} mean is below its own best",
         figures,
     )
 
@@ -311,8 +307,7 @@ def escapes(results: Results) -> Finding:
     return Finding(
         held(row["reached"] == row["runs"]),
         "as printed they are gradient descent and a pull to the best, and explore nothing: {reached} of {runs} runs "
-        "reach "
-        "Rastrigin's minimum, the median ends {median:.2g} above it",
+        "reach Rastrigin's minimum, the median ends {median:.2g} above it",
         figures,
     )
 
@@ -342,8 +337,8 @@ def gains_hold(results: Results) -> Finding:
     known = figures["paper"] is not None and figures["pid"] is not None
     return Finding(
         held(known and figures["paper"] <= figures["pid"]),
-        "taken for the velocity loops, in {wind:.0f} m/s of steady wind they leave {paper:.2f} m of offset, and a PID "
-        "{pid:.2f} m"
+        "taken for the velocity loops, in {wind:.0f} m/s of steady wind they leave {paper:.2f} m of offset, and a "
+        "PID {pid:.2f} m"
         if known
         else "not every set of gains flew",
         figures,
@@ -363,7 +358,7 @@ def laws_compared(results: Results) -> Finding:
             f"half_{k}": row["change_percent_half"],
             f"wind_{k}": row["wind"],
         }
-        told.append(f"{{change_{k}:+.1f}} ± {{half_{k}:.1f}} % ({{wind_{k}}})")
+        told.append("{change_#:+.1f} ± {half_#:.1f} % ({wind_#})".replace("#", f"{k}"))
     return Finding(
         held(figures["better"] == figures["of"]),
         "tuned alike and flown on {seeds} unseen seeds, its error is clearly less in {better} of {of} comparisons "
@@ -381,7 +376,7 @@ def best_tuner(results: Results) -> Finding:
         **{f"cost_{name}": cost for name, cost in costs.items()},
         "budget": results["optimisers"]["budget"],
     }
-    told = ", ".join(f"{TUNERS[name]} {{cost_{name}:.3f}}" for name in costs)
+    told = ", ".join(TUNERS[name] + " {cost_#:.3f}".replace("#", name) for name in costs)
     alone = sum(cost == costs[best] for cost in costs.values()) == 1
     return Finding(held(best == "haoaroa" and alone), "mean cost after {budget} evaluations each: " + told, figures)
 
@@ -406,13 +401,13 @@ def needs(*wanted: str) -> Callable[[Results], Finding]:
     return rule
 
 
-LENGTHS_TOLD = " ".join(f"{printed.METHODS[m]} {{{m}:.1f}} m," for m in RIVALS).removesuffix(",")
+LENGTHS_TOLD = ", ".join(printed.METHODS[m] + " {#:.1f} m".replace("#", m) for m in RIVALS)
 
 CLAIMS: tuple[Claim, ...] = (
     Claim(
         "planners",
         "HAOAROA's paths are the shortest: {haoaroa:.1f} m; " + LENGTHS_TOLD,
-        ahead("length_m", RIVALS, "length over HAOAROA's in {n} worlds"),
+        ahead("length_m", RIVALS, "length over HAOAROA's in {n} worlds", form=".4f"),
         dict(printed.LENGTHS),
     ),
     Claim("lengths", "A* usually has the shortest path, HAOAROA nearly as short a one", astar_shortest, {}),
@@ -446,7 +441,7 @@ CLAIMS: tuple[Claim, ...] = (
     Claim(
         "planners",
         "flights of HAOAROA's paths are the steadiest",
-        ahead("tracking_p95_m", RIVALS, "tracking error over HAOAROA's in {n} flights"),
+        ahead("tracking_percentile_m", RIVALS, "tracking error over HAOAROA's in {n} flights"),
         {},
     ),
     Claim(
@@ -500,8 +495,7 @@ CLAIMS: tuple[Claim, ...] = (
             equations.knots,
             lambda f: f["printed"] != f["needed"] or f["first"] != f["order"] or f["last"] != f["order"],
             "{printed} are printed, {needed} are needed; the first is there {first} times and the last {last}, both "
-            "must "
-            "be {order}",
+            "must be {order}",
         ),
         {"told": printed.KNOTS_TOLD, "points": printed.CONTROL_POINTS},
     ),
@@ -523,8 +517,7 @@ CLAIMS: tuple[Claim, ...] = (
             equations.hover,
             lambda f: f["best"] < 0.0,
             "thrust and weight have the same sign: the greatest upward acceleration is {best:.2f} m/s², with no "
-            "thrust; "
-            "it cannot hover",
+            "thrust; it cannot hover",
         ),
         {},
     ),
@@ -535,8 +528,7 @@ CLAIMS: tuple[Claim, ...] = (
             equations.length_cost,
             lambda f: f["cost_spread"] < 1e-9 < f["length_spread"],
             "it is the way from end to end: {curves} curves with the same ends differ by {length_spread:.1f} m in "
-            "length "
-            "and by {cost_spread:.0f} in cost",
+            "length and by {cost_spread:.0f} in cost",
         ),
         {},
     ),
@@ -547,8 +539,7 @@ CLAIMS: tuple[Claim, ...] = (
             equations.obstacle_cost,
             lambda f: f["least_at"] == 0.0 and f["lowest_negative"] < -1.0,
             "with a weight above zero it is least {least_at:.0f} m from the obstacle's centre, with one below it has "
-            "no "
-            "minimum",
+            "no minimum",
         ),
         {},
     ),
@@ -573,7 +564,7 @@ CLAIMS: tuple[Claim, ...] = (
 
 def _longer_than_astar(results: Results) -> Finding:
     """L-BSGF and Bezier against A*: A* has less length than both."""
-    return ahead("length_m", ("lbsgf", "bezier"), "length over A*'s in {n} worlds", "astar")(results)
+    return ahead("length_m", ("lbsgf", "bezier"), "length over A*'s in {n} worlds", "astar", ".4f")(results)
 
 
 def _faster_grids(results: Results) -> Finding:

@@ -18,7 +18,7 @@ from campaigns.tuning.statistics import Interval
 from fakevehicle.control.gains import PARAMETERS, PRESETS
 
 POPULATION = 20
-"""The paper's; fewer where the budget does not pay for two rounds of it."""
+"""The paper's."""
 FEWEST = 5
 """Candidates, of differential evolution."""
 SPEED = 5.0
@@ -67,8 +67,8 @@ def tuners() -> tuple[str, ...]:
 
 
 def population(budget: int) -> int:
-    """Candidates at a time: two rounds of them where that can be, and as many as every optimiser wants."""
-    return max(FEWEST, min(POPULATION, budget // 2))
+    """Candidates at a time: the paper's, or fewer for four rounds of them, and as many as every optimiser wants."""
+    return max(FEWEST, min(POPULATION, budget // 4))
 
 
 def laws(item: Laws, executor: Executor, folder: Path, say: Say) -> dict[str, Any]:

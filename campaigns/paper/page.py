@@ -31,24 +31,24 @@ def head(results: Results, figures: str) -> Iterator[str]:
         f"Written by `companion paper{' --quick' if made['size'] == 'quick' else ''}`{of}; every figure is in "
         f"[results.json]({figures}/results.json), and no verdict is written by hand: each is computed by a rule "
         "(`campaigns/paper/claims.py`). The paper gives no code, no worlds, no vehicle and no units, so what is run "
-        "here is "
-        "our reading of it: [planner.md](planner.md), [search.md](search.md), [tuning.md](tuning.md)."
+        "here is our reading of it: [planner.md](planner.md), [search.md](search.md), [tuning.md](tuning.md)."
     )
 
 
 def verdicts(results: Results, figures: str) -> Iterator[str]:
     """Every claim with its verdict."""
     claims = results["claims"]
-    counts = {verdict.value: sum(c["verdict"] == verdict.value for c in claims) for verdict in Verdict}
+    counts = results["verdicts"]
     yield "## Verdicts"
     yield ""
     yield (
-        f"Of {len(claims)} claims " + ", ".join(f"{n} {'is' if n == 1 else 'are'} {v}" for v, n in counts.items()) + "."
+        f"Of {counts['claims']} claims "
+        + ", ".join(f"{counts[v]} {'is' if counts[v] == 1 else 'are'} {v}" for v in Verdict)
+        + "."
     )
     yield (
         "*Impossible* follows by arithmetic from what is printed. Behind a figure, in brackets or after ±, is its "
-        "confidence "
-        f"interval of {results['setup']['percentile']} %; a method is ahead where that leaves no doubt."
+        f"confidence interval of {results['setup']['percentile']} %; a method is ahead where that leaves no doubt."
     )
     yield ""
     rows = ((c["place"], c["says"], f"**{c['verdict']}**", c["why"]) for c in claims)
@@ -61,8 +61,8 @@ def functions(results: Results, figures: str) -> Iterator[str]:
     yield ""
     yield (
         f"At d = {results['setup']['dimension']}. Formulas and domains are the usual ones: the paper's own are in a "
-        "table "
-        "that its text does not hold. Its section on them calls the algorithm under test HWOAGWO, which is another one."
+        "table that its text does not hold. Its section on them calls the algorithm under test HWOAGWO, which is "
+        "another one."
     )
     yield ""
     rows = (
@@ -87,18 +87,15 @@ def planners(results: Results, figures: str) -> Iterator[str]:
     yield f"## {paper['places']['planners']} and {paper['places']['paths']}: planners, planned and flown"
     yield ""
     yield (
-        f"Every method plans and flies {worlds} worlds of each family, the same ones: a hull of {setup['hull']:.2f} m "
-        "keeps "
-        f"{setup['clearance']:.1f} m from obstacles. Medians over the worlds where the plan is proved clear. Length, "
-        "jerk "
-        "and curvature are the plan's: smoothness is the integral of jerk squared, and ∞ stands for a stop with a "
-        "turn on "
-        "the spot. Tracking error and clearance are flown, by the simulator's truth, with vehicle and estimator in "
-        "the loop, "
-        "in still air. The paper has one number a method, for a world it does not give."
+        f"Every method plans and flies {worlds} worlds of each family, the same ones: a hull of {setup['hull']:.2f} "
+        f"m keeps {setup['clearance']:.1f} m from obstacles. Medians over the worlds where the plan is proved clear. "
+        "Length, jerk and curvature are the plan's: smoothness is the integral of jerk squared, and ∞ stands for a "
+        "stop with a turn on the spot. Tracking error and clearance are flown, by the simulator's truth, with "
+        "vehicle and estimator in the loop, in still air. The paper has one number a method, for a world it does "
+        "not give."
     )
     yield ""
-    heads = ("family", "method", "paper m", "proved", "length m", "∫ jerk² dt m²/s⁵", "curvature 1/m", "CPU ms")
+    heads = ("family", "method", "paper m", "proved", "length m", "∫ jerk² dt m²/s⁵", "curvature per m", "CPU ms")
     planned = (
         (
             row["family"],
@@ -126,7 +123,7 @@ def planners(results: Results, figures: str) -> Iterator[str]:
             paper["methods"][row["method"]],
             f"{row['flown_ok']}/{row['certified']}",
             number(row["tracking_rms_m"], ".3f"),
-            number(row["tracking_p95_m"], ".3f"),
+            number(row["tracking_percentile_m"], ".3f"),
             number(row["tracking_max_m"], ".2f"),
             number(row["min_clearance_m"], ".2f"),
             number(row["least_clearance_m"], ".2f"),
@@ -149,14 +146,12 @@ def searches(results: Results, figures: str) -> Iterator[str]:
     yield f"## {paper['places']['searches']}: searches"
     yield ""
     yield (
-        f"Population {setup['population']}, at most {evaluations} evaluations, {runs} runs, d = {setup['dimension']}; "
-        "runs "
-        f"that end within {setup['target']:.0e} of f\\*, and the median of f - f\\*. *Moved* is the same function "
-        "with its "
-        "minimum moved within the same domain: an algorithm that is drawn to the origin loses there what it won "
-        "before. "
-        "*Literal* is what is printed, *canonical* the original algorithms as they are usually run; with neither, "
-        "products of coordinates are products of differences ([search.md](search.md))."
+        f"Population {setup['population']}, at most {evaluations} evaluations, {runs} runs, d = "
+        f"{setup['dimension']}; runs that end within {setup['target']:.0e} of f\\*, and the median of f - f\\*. "
+        "*Moved* is the same function with its minimum moved within the same domain: an algorithm that is drawn to "
+        "the origin loses there what it won before. *Literal* is what is printed, *canonical* the original "
+        "algorithms as they are usually run; with neither, products of coordinates are products of differences "
+        "([search.md](search.md))."
     )
     yield ""
     rows = (
@@ -197,11 +192,9 @@ def searches(results: Results, figures: str) -> Iterator[str]:
     )
     yield (
         "The printed rows for AOA and ROA, and the least mean and std that their own best and worst leave possible: "
-        "of n "
-        "runs one is the worst, and the others lie as far below the mean together as it lies above, so std is at least "
-        "worst less mean over the root of how many others there are, and the mean at least that of the worst and "
-        "otherwise "
-        "nothing but the best."
+        "of n runs one is the worst, and the others lie as far below the mean together as it lies above, so std is "
+        "at least worst less mean over the root of how many others there are, and the mean at least that of the "
+        "worst and otherwise nothing but the best."
     )
     yield ""
     heads = ("function", "algorithm", "best", "worst", "mean", "median", "std", "least mean", "least std", "")
@@ -215,10 +208,9 @@ def gains(results: Results, figures: str) -> Iterator[str]:
     yield ""
     yield (
         f"Each law is tuned with {laws['budget']} evaluations of the same cost, population {laws['population']}, by "
-        "HAOAROA, "
-        "from its own preset, and then flown on seeds that no tuning has seen: a figure of eight, RMS over ground of "
-        "truth "
-        "less setpoint, mean and its interval. *Against it* is FOPID-TID's RMS relative to that law's, seed by seed."
+        "HAOAROA, from its own preset, and then flown on seeds that no tuning has seen: a figure of eight, RMS over "
+        "ground of truth less setpoint, mean and its interval. *Against it* is FOPID-TID's RMS relative to that "
+        "law's, seed by seed."
     )
     yield ""
     rows = (
@@ -238,8 +230,8 @@ def gains(results: Results, figures: str) -> Iterator[str]:
     yield ""
     yield from picture(figures, "controllers", "RMS of each law, and the optimisers' lowest costs")
     yield (
-        f"Optimisers on FOPID-TID's gains, {tuners['budget']} evaluations each, population {tuners['population']}; the "
-        "lowest cost, in units of the default gains' cost:"
+        f"Optimisers on FOPID-TID's gains, {tuners['budget']} evaluations each, population {tuners['population']}; "
+        "the lowest cost, in units of the default gains' cost:"
     )
     yield ""
     cells = (
@@ -257,8 +249,7 @@ def gains(results: Results, figures: str) -> Iterator[str]:
     yield ""
     yield (
         "The paper does not say which loop its five gains belong to, nor their units. Taken for the velocity loops, "
-        "and held "
-        f"against our presets at one place in {results['wind']:.0f} m/s of steady wind, by the truth:"
+        f"and held against our presets at one place in {results['wind']:.0f} m/s of steady wind, by the truth:"
     )
     yield ""
     held = (
@@ -288,6 +279,9 @@ MEANING = {
     "iterations": "iterations of a run",
     "holds": "flights in steady wind for each set of gains",
     "hold_s": "seconds of each",
+    "eight_s": "seconds of the figure of eight that tunings fly, in calm and in gusts",
+    "step_m": "metres of the step beside it",
+    "train": "seeds of an evaluation",
     "laws_budget": "evaluations that tune a law",
     "unseen": "unseen seeds for each law and wind",
     "optimisers_budget": "evaluations of an optimiser",

@@ -9,7 +9,7 @@ from typing import Any
 
 from campaigns.executors import Executor
 from campaigns.paper import controllers, figures, functions, holding, printed, search, worlds
-from campaigns.paper.claims import judge
+from campaigns.paper.claims import Verdict, judge
 from campaigns.paper.page import page
 from campaigns.paper.pairs import all_pairs
 from campaigns.paper.sizes import FULL, QUICK, Sizes
@@ -22,7 +22,7 @@ PAGE, FIGURES, RESULTS, WORK = "paper.md", "paper", "results.json", "work"
 FLYING = ("planner", "companion", "fakevehicle", "wire")
 """Packages whose sources decide a flight."""
 PERCENTILE = 95
-PAIRED = ("length_m", "jerk_integral", "cpu_ms", "tracking_p95_m")
+PAIRED = ("length_m", "jerk_integral", "cpu_ms", "tracking_percentile_m")
 
 
 def stages(sizes: Sizes) -> dict[str, Stage]:
@@ -131,7 +131,9 @@ def assembled(sizes: Sizes, rows: dict[str, Any]) -> dict[str, Any]:
         "laws": rows["laws"],
         "optimisers": rows["optimisers"],
     }
-    results["claims"] = judge(results)
+    claims = results["claims"] = judge(results)
+    counts = {verdict.value: sum(claim["verdict"] == verdict for claim in claims) for verdict in Verdict}
+    results["verdicts"] = {"claims": len(claims), **counts}
     return results
 
 

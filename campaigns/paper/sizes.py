@@ -68,11 +68,11 @@ QUICK = Sizes(
     iterations=200,
     holds=2,
     hold_s=20.0,
-    laws_budget=12,
+    laws_budget=20,
     eight_s=6.0,
     step_m=3.0,
     train=1,
     unseen=4,
-    optimisers_budget=12,
+    optimisers_budget=24,
     optimiser_seeds=1,
 )

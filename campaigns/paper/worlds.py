@@ -88,10 +88,10 @@ def _flown(verdict: Verdict | None) -> dict[str, float | None]:
     """A flight's figures."""
     track = None if verdict is None else verdict.track
     if verdict is None or track is None:
-        return dict.fromkeys(("tracking_rms_m", "tracking_p95_m", "tracking_max_m", "min_clearance_m"))
+        return dict.fromkeys(("tracking_rms_m", "tracking_percentile_m", "tracking_max_m", "min_clearance_m"))
     return {
         "tracking_rms_m": float(np.sqrt((track.error**2).mean())),
-        "tracking_p95_m": verdict.tracking_error_p95_m,
+        "tracking_percentile_m": verdict.tracking_error_p95_m,
         "tracking_max_m": verdict.tracking_error_max_m,
         "min_clearance_m": verdict.min_clearance_m,
     }
@@ -110,7 +110,15 @@ def items(families: tuple[str, ...], worlds: int, repeats: int) -> list[Course]:
     ]
 
 
-COLUMNS = ("length_m", "jerk_integral", "duration_s", "cpu_ms", "tracking_rms_m", "tracking_p95_m", "min_clearance_m")
+COLUMNS = (
+    "length_m",
+    "jerk_integral",
+    "duration_s",
+    "cpu_ms",
+    "tracking_rms_m",
+    "tracking_percentile_m",
+    "min_clearance_m",
+)
 """Of which medians are told, over the worlds where the method is certified."""
 
 
@@ -121,7 +129,7 @@ def by_method(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
         for method in METHODS:
             mine = [row for row in rows if row["family"] == family and row["method"] == method]
             good = [row for row in mine if row["certified"]]
-            flown = [row for row in good if row["tracking_p95_m"] is not None]
+            flown = [row for row in good if row["tracking_percentile_m"] is not None]
             made.append(
                 {
                     "family": family,

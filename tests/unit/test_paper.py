@@ -1,0 +1,207 @@
+"""The paper's claims: every rule can come out either way, every figure of the page is a result, work is done once."""
+
+import ast
+import io
+import json
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from paper_double import Here, Silent, strange_numbers
+from rich.console import Console
+from scipy import stats
+
+from campaigns.paper import claims, equations, functions, page, pairs, printed, stages, worlds
+from campaigns.paper.claims import CLAIMS, Verdict
+from campaigns.paper.run import costs
+from campaigns.paper.sizes import QUICK
+from companion.cli.paper import HowFar
+from companion.errors import CompanionError
+from planner.search import BENCHMARKS
+
+DOCS = Path("docs")
+
+
+# ---- every figure of the page is a result ---------------------------------------------------------------------------
+
+
+def test_every_number_of_the_committed_page_is_in_its_results():
+    results = json.loads((DOCS / "paper" / "results.json").read_text())
+    text = (DOCS / "paper.md").read_text()
+    assert strange_numbers(text, results) == []
+    assert len(re.findall(r"\d+\.\d+", text)) > 500
+    assert strange_numbers(text + " 123.4567", results) == ["123.4567"]
+
+
+def test_the_committed_page_is_what_its_results_say_and_so_are_the_verdicts():
+    results = json.loads((DOCS / "paper" / "results.json").read_text())
+    assert (DOCS / "paper.md").read_text() == page.page(results, "paper")
+    assert claims.judge(results) == results["claims"]
+
+
+@pytest.mark.parametrize("module", [page, claims], ids=lambda module: module.__name__)
+def test_no_sentence_has_a_figure_of_its_own(module):
+    tree = ast.parse(Path(module.__file__).read_text())
+    forms = {id(part) for node in ast.walk(tree) if isinstance(node, ast.FormattedValue) for part in ast.walk(node)}
+    bodies = [node.body for node in ast.walk(tree) if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef)]
+    told = {id(line.value) for body in bodies for line in body if isinstance(line, ast.Expr)}  # docstrings
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in forms | told:
+            words = node.value
+            while (plainer := re.sub(r"\{[^{}]*\}", "", words)) != words:  # without placeholders, one in another too
+                words = plainer
+            assert not re.search(r"[0-9]", words) or re.fullmatch(r"\+?\.\d[efg]", words), node.value
+
+
+# ---- rules come out either way --------------------------------------------------------------------------------------
+
+
+def finding(says: str, results: dict | None = None) -> claims.Finding:
+    """What the rule of the claim with these words says."""
+    (claim,) = [c for c in CLAIMS if says in c.says]
+    return claim.rule(results or {})
+
+
+@pytest.mark.parametrize(
+    ("says", "name", "right"),
+    [
+        ("four rotors", "MIXER", ((1, 1, 1, 1), (1, -1, -1, 1), (1, 1, -1, -1), (1, -1, 1, -1))),
+        ("four slopes", "SLOPES", ((-0.5, 1, -0.5), (0, -2, 1.5), (0.5, 1, -1.5), (0, 0, 0.5))),
+        ("clamped", "KNOTS", (0, 0, 0, 0, 1 / 7, 2 / 7, 3 / 7, 4 / 7, 5 / 7, 6 / 7, 1, 1, 1, 1)),
+        ("adds λ and μ", "GAINS", dict.fromkeys(printed.GAINS, 0.0)),
+    ],
+)
+def test_what_is_printed_is_impossible_and_what_is_right_is_not(says, name, right, monkeypatch):
+    assert finding(says).verdict is Verdict.IMPOSSIBLE
+    monkeypatch.setattr(printed, name, right)
+    assert finding(says).verdict is Verdict.REPRODUCED
+
+
+def test_no_thrust_lifts_the_printed_vehicle_and_no_bow_costs_more_than_the_straight_line():
+    assert equations.hover(gravity=3.0)["best"] == pytest.approx(-3.0)
+    length = equations.length_cost()
+    assert length["cost_spread"] < 1e-9
+    assert length["length_spread"] > 1.0
+
+
+def rows_of(lengths: dict[str, list[float]]) -> list[dict]:
+    """Rows of worlds, as `worlds.course` makes them, with these lengths."""
+    return [
+        {"family": "L", "seed": seed, "method": method, "certified": True, "length_m": length}
+        for method, every in lengths.items()
+        for seed, length in enumerate(every)
+    ]
+
+
+OURS = [20.0, 21.0, 19.5, 20.5]
+
+
+@pytest.mark.parametrize(("factor", "verdict"), [(1.05, Verdict.REPRODUCED), (1.0, Verdict.NOT), (0.95, Verdict.NOT)])
+def test_haoaroa_is_shortest_only_when_every_rival_is_longer_beyond_chance(factor, verdict):
+    lengths = {m: [x * 1.02 + 0.01 * k for k, x in enumerate(OURS)] for m in claims.RIVALS} | {"haoaroa": OURS}
+    lengths["lbsgf"] = [x * factor * (1.0 + 1e-3 * (-1) ** k) for k, x in enumerate(OURS)]
+    rows = rows_of(lengths)
+    results = {"pairs": pairs.all_pairs(rows, ("length_m",), tuple(lengths))}
+    assert finding("paths are the shortest", results).verdict is verdict
+
+
+def test_a_star_and_jps_of_one_length_make_the_printed_difference_impossible_and_others_do_not():
+    for other, verdict in ((OURS, Verdict.IMPOSSIBLE), ([x + 0.3 for x in OURS], Verdict.REPRODUCED)):
+        rows = rows_of({"astar": OURS, "jps": other})
+        results = {"pairs": pairs.all_pairs(rows, ("length_m",), ("astar", "jps"))}
+        assert finding("longer than A*'s, ", results).verdict is verdict
+
+
+def test_pairs_are_compared_by_their_ratio_with_the_t_interval_of_its_logarithm():
+    theirs = [x * f for x, f in zip(OURS, (1.02, 1.1, 1.05, 0.99), strict=True)]
+    row = pairs.versus(rows_of({"haoaroa": OURS, "astar": theirs}), "length_m", "haoaroa", "astar")
+    expected = stats.ttest_1samp(np.log(np.array(theirs) / np.array(OURS)), 0.0).confidence_interval(0.95)
+    assert (row["low"], row["high"]) == pytest.approx((math.exp(expected.low), math.exp(expected.high)))
+    assert (row["n"], row["less"]) == (4, 3)
+
+
+def test_the_shortest_is_counted_among_the_proved():
+    rows = rows_of({"haoaroa": OURS, "astar": [x - 1.0 for x in OURS]})
+    assert worlds.shortest(rows)["astar"] == 4
+    for row in rows:
+        row["certified"] = row["method"] == "haoaroa"
+    assert worlds.shortest(rows)["haoaroa"] == 4
+
+
+def test_what_is_told_cannot_be_called_not_testable():
+    with pytest.raises(ValueError, match="something to test"):
+        claims.needs("the tuned gains")
+
+
+# ---- tables ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("function", BENCHMARKS, ids=lambda f: f.name)
+def test_the_printed_formulas_are_the_functions(function):
+    names = {name: getattr(np, name) for name in ("sin", "cos", "exp", "sqrt", "pi", "e")}
+    points = np.random.default_rng(1).uniform(function.lower, function.upper, (50, 2))
+    value = eval(functions.FORMULAS[function.name].replace("^", "**"), names | dict(zip("xy", points.T, strict=True)))
+    assert np.allclose(value, function(points), rtol=1e-9, atol=1e-9)
+
+
+# ---- work is done once ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    value: int
+
+
+def square(item: Number) -> dict[str, int]:
+    if item.value == 13:
+        raise ValueError("thirteen")
+    return {"square": item.value**2}
+
+
+def stage(*values: int) -> stages.Stage:
+    return stages.Stage("squares", square, tuple(map(Number, values)), ("planner.families",))
+
+
+def test_an_interrupted_stage_goes_on_and_no_item_is_done_twice(tmp_path):
+    kept, first, second = stages.Kept(tmp_path), Here(), Here()
+    with pytest.raises(CompanionError, match=r"squares: Number\(value=13\): ValueError .*thirteen"):
+        stages.run(stage(2, 3, 13, 4), kept, first, Silent())
+    found = stages.run(stage(2, 3, 5), kept, second, Silent())
+    assert found == [{"square": 4}, {"square": 9}, {"square": 25}]
+    assert second.given == [Number(5)]
+
+
+def test_a_result_that_is_no_json_any_more_is_made_anew(tmp_path):
+    kept, one = stages.Kept(tmp_path), stage(2)
+    stages.run(one, kept, Here(), Silent())
+    kept.file(one, Number(2)).write_text("{")
+    assert stages.run(one, kept, Here(), Silent()) == [{"square": 4}]
+
+
+def test_a_folder_that_cannot_be_written_is_one_line(tmp_path):
+    (tmp_path / "squares").write_text("a file where a folder is to be")
+    with pytest.raises(CompanionError) as error:
+        stages.run(stage(2), stages.Kept(tmp_path), Here(), Silent())
+    assert str(error.value).startswith(str(tmp_path / "squares"))
+    assert "\n" not in str(error.value)
+
+
+def test_progress_is_told_in_shares_of_the_whole_and_in_time_that_is_left():
+    text = io.StringIO()
+    with HowFar(QUICK, Console(file=text, width=100)) as progress:
+        every = costs(QUICK)
+        for stage_name, (items, _) in every.items():
+            kept = items // 2
+            progress.begin(stage_name, items, kept)
+            for _ in range(items - kept):
+                progress.done()
+        progress.begin(stage_name, items, items)
+    lines = text.getvalue().splitlines()
+    assert lines[0].startswith("worlds 20/40, ")
+    shares = [int(re.search(r"(\d+) % of all", line).group(1)) for line in lines]
+    assert shares == sorted(shares)
+    assert shares[-1] == 100
+    assert lines[-1].endswith("about 0 s left")
