@@ -15,6 +15,7 @@ from companion.errors import MissionError, RerunError
 from logs.compare import Comparison, Output, compare
 from logs.errors import RecordingError
 from logs.filter import SEAM
+from logs.parts import PART
 from logs.reader import FILTER, Recording
 from logs.table import RecordedTick, ticks
 from wire.datagram import Datagram
@@ -97,7 +98,10 @@ def rerun(
 
 
 def _ticks(recording: Recording) -> Iterator[RecordedTick]:
-    """The recorded ticks; of a filtered recording that lacks some it is told what a filter must keep."""
+    """The recorded ticks; of a part, or a filtered recording that lacks some, it is told what would do."""
+    part = recording.metadata.get(PART, {})
+    if len(recording.paths) == 1 and part.get("number", "1") != "1":
+        raise RerunError(f"{recording.path}: is part {part['number']}; a re-run begins with {part.get('of')}")
     try:
         yield from ticks(recording)
     except RecordingError as error:

@@ -18,6 +18,7 @@ from companion.drivers.rerun import rerun
 from companion.errors import MissionError, RerunError
 from logs.filter import SEAM, filtered
 from logs.reader import Recording
+from logs.recorder import Recorder
 from logs.selection import Selection
 
 
@@ -48,7 +49,8 @@ def test_the_plain_mcap_reader_and_its_protobuf_decoder_open_the_recording(recor
                 [c.topic for c in summary.channels.values() if c.message_encoding == "protobuf"]
             )
         }
-        assert [a.name for a in reader.iter_attachments()] == ["mission.yaml", "vehicle.params"]
+        attached = [attachment.name for attachment in reader.iter_attachments()]
+        assert list(dict.fromkeys(attached)) == ["mission.yaml", "vehicle.params"]  # parameters once more as they ended
     assert {"/mavlink/1/1/ATTITUDE", "/mavlink/1/191/SET_POSITION_TARGET_LOCAL_NED"} <= decoded.keys()
     assert decoded["/companion/plan_ready"].certified
     assert sum(summary.statistics.channel_message_counts.values()) == summary.statistics.message_count
@@ -156,6 +158,17 @@ def test_a_filtered_recording_without_what_a_rerun_needs_is_told_what_to_keep(re
         RerunError, match=r"filtered from flight.mcap without .*; filter with --topic '/mavlink/raw/\*'"
     ):
         rerun(Recording.open(small.path))
+
+
+def test_a_later_part_is_no_beginning_and_the_first_is_named(recording, tmp_path):
+    whole = Recording.open(recording)
+    metadata = {name: values for name, values in whole.metadata.items() if name != "schema"}
+    metadata |= {"part": {"number": "2", "of": "flight.mcap"}}
+    path = tmp_path / "flight.part0002.mcap"
+    with Recorder(path, metadata=metadata, attachments=list(whole.attachments.values()), threaded=False):
+        pass
+    with pytest.raises(RerunError, match=r"is part 2; a re-run begins with flight.mcap"):
+        rerun(Recording.open(path))
 
 
 def test_what_a_changed_limit_changes_is_listed_by_field_with_when_first_and_how_much_at_most(recording, capsys):
