@@ -55,7 +55,7 @@ def wilson(ok: int, flights: int) -> tuple[float, float]:
     p, n, zz = ok / flights, flights, Z95**2
     middle = (p + zz / (2 * n)) / (1 + zz / n)
     half = Z95 / (1 + zz / n) * math.sqrt(p * (1 - p) / n + zz / (4 * n * n))
-    return max(0.0, middle - half), min(1.0, middle + half)
+    return max(0.0, min(middle - half, p)), min(1.0, max(middle + half, p))  # by rounding p could be outside
 
 
 def flown(rows: Iterable[Row]) -> list[Row]:
@@ -128,7 +128,7 @@ def numbers(rows: Iterable[Row], column: str) -> "np.ndarray[Any, np.dtype[np.fl
 
 
 def _word(value: Any) -> str:
-    return "-" if value is None or value == "" else str(value)
+    return "none" if value is None or value == "" else str(value)
 
 
 def _numbers(values: Sequence[float], unit: str = "") -> list[str]:

@@ -53,6 +53,13 @@ def test_the_interval_is_wilsons(ok: int, of: int) -> None:
     assert wilson(ok, of) == pytest.approx((theirs.low, theirs.high), abs=1e-12)
 
 
+def test_the_interval_holds_what_was_found() -> None:
+    for of in range(1, 100):
+        for ok in range(of + 1):
+            low, high = wilson(ok, of)
+            assert 0.0 <= low <= ok / of <= high <= 1.0
+
+
 def test_nothing_is_known_of_no_flights() -> None:
     assert wilson(0, 0) == (0.0, 1.0)
 
