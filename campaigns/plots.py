@@ -126,7 +126,7 @@ def _draw_spread(at: "Axes", rows: Sequence[Row], axis: str, shown: Sequence[Gro
         else:
             place = ("axes fraction", "data")
             at.annotate("none measured", (0.01, k), xycoords=place, fontsize=8, color=GREY, va="center")
-        for ok, color, size, alpha in ((True, BLUE, 4, 0.45), (False, RED, 6, 0.9)):
+        for ok, color, size, alpha in ((True, BLUE, 5, 0.5), (False, RED, 6, 0.9)):
             values = numbers((row for row in members if bool(row["ok"]) is ok), column)
             beside = k + scatter.uniform(-0.24, 0.24, len(values))
             at.plot(values, beside, ".", mew=0, color=color, ms=size, alpha=alpha)

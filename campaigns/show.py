@@ -19,6 +19,7 @@ AXES = ("mission", "autopilot", "method", "airframe", "gains", "wind", "gusts", 
 MOST_VALUES = 12
 """Of numbers; more are put into bins."""
 BINS = 5
+NONE = "none"
 Z95 = 1.959963984540054
 """Two-sided 95 % of the normal distribution."""
 
@@ -128,7 +129,7 @@ def numbers(rows: Iterable[Row], column: str) -> "np.ndarray[Any, np.dtype[np.fl
 
 
 def _word(value: Any) -> str:
-    return "none" if value is None or value == "" else str(value)
+    return NONE if value is None or value == "" else str(value)
 
 
 def _numbers(values: Sequence[float], unit: str = "") -> list[str]:
@@ -141,6 +142,8 @@ def _numbers(values: Sequence[float], unit: str = "") -> list[str]:
 
 
 def _natural(text: str) -> list[tuple[float, str]]:
-    """Sorts as people do, numbers in a text by their size."""
+    """Sorts as people do: nothing first, and numbers in a text by their size."""
+    if text == NONE:
+        return []
     parts = re.split(r"((?:(?<!\w)-)?\d+(?:\.\d+)?)", text)
     return [(float(part), "") if k % 2 else (math.inf, part) for k, part in enumerate(parts) if part]

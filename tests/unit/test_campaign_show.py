@@ -90,8 +90,8 @@ def test_many_winds_become_bins_of_their_speed() -> None:
 
 
 def test_groups_are_in_the_order_of_people() -> None:
-    rows = [row(k, gains=gains) for k, gains in enumerate(("a-10", "a-2", "b", "a-2.5", "-"))]
-    assert [group.values["gains"] for group in groups(rows, ["gains"])] == ["-", "a-2", "a-2.5", "a-10", "b"]
+    rows = [row(k, gains=gains) for k, gains in enumerate(("a-10", "a-2", "b", "a-2.5", ""))]
+    assert [group.values["gains"] for group in groups(rows, ["gains"])] == ["none", "a-2", "a-2.5", "a-10", "b"]
     winds = [row(k, wind_north=north) for k, north in enumerate((10.0, 2.0, 0.0))]
     assert [group.values["wind"] for group in groups(winds, ["wind"])] == ["0, 0 m/s", "2, 0 m/s", "10, 0 m/s"]
 
