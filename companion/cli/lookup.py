@@ -91,7 +91,7 @@ def diff_logs(left: Path, right: Path, wanted: Selection, ignore: list[str], tol
     with show.working(show.console(), "comparing"):
         found = diff(one, other, wanted, ignore=ignore, tolerance=tolerance)
         settings = differing(settings_of(one), settings_of(other)) if wanted == Selection() else {}
-    if not found.compared and not found.counts:
+    if not found.compared and not found.counts and not settings:
         raise nothing_left(one, wanted)
     for recording in (one, other):
         _tell_problem(recording)

@@ -14,7 +14,7 @@ from logs.export.tlog import to_tlog
 from logs.importing import import_log
 from logs.rows import Row, rows
 from logs.selection import Selection
-from logs.wire_replay import paced, vehicle_link, vehicle_traffic
+from logs.wire_replay import paced, vehicle_link, vehicle_links, vehicle_traffic
 
 
 def told(path: Path) -> dict[str, list[Row]]:
@@ -170,6 +170,14 @@ def test_an_ardupilot_log_becomes_channels_with_its_own_names(tmp_path: Path) ->
     assert second.log_time_ns - first.log_time_ns == 100_000_000
     assert found["/ardupilot/PARM"][0].values["Name"] == "ATC_RAT_RLL_P"
     assert found["/ardupilot/MSG"][0].values["Message"] == "ArduCopter V4.6"
+
+
+def test_a_log_without_datagrams_is_not_replayed_and_says_of_what_it_was_made(tmp_path: Path) -> None:
+    (tmp_path / "log.BIN").write_bytes(dataflash())
+    recording = Recording.open(import_log(tmp_path / "log.BIN", tmp_path / "log.mcap").path)
+    for find in (vehicle_link, vehicle_links):
+        with pytest.raises(RecordingError, match="made of a dataflash log, holds decoded messages only"):
+            find(recording)
 
 
 def test_a_kind_of_message_without_a_length_does_not_hold_the_import_up_for_ever(tmp_path: Path) -> None:
