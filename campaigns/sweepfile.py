@@ -9,7 +9,16 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import yaml
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from companion.errors import ConfigError
 from companion.testing.wire import LinkFaults
@@ -167,7 +176,14 @@ def _link(value: Any) -> Any:
     return {} if value == "none" else value
 
 
-Faults = Annotated[list[str], Field(max_length=MOST_FAULTS), BeforeValidator(_faults)]
+def _fault(text: str) -> str:
+    parse_fault(text)
+    return text
+
+
+Faults = Annotated[
+    list[Annotated[str, AfterValidator(_fault)]], Field(max_length=MOST_FAULTS), BeforeValidator(_faults)
+]
 Method = Literal["mission", "haoaroa", "astar", "jps", "bezier", "lbsgf", "aoa", "roa"]
 assert set(METHODS) | {MISSION} == set(Method.__args__)  # type: ignore[attr-defined]  # a Literal has them
 
@@ -193,14 +209,6 @@ class SweepFile(Model):
     limit_s: Annotated[Real, Field(ge=1, le=86_400)] = 600.0
     timeout_s: Annotated[Real, Field(ge=1, le=86_400)] = 600.0
     recordings: Recordings = Recordings()
-
-    @field_validator("faults")
-    @classmethod
-    def _faults_can_be(cls, axis: list[list[str]]) -> list[list[str]]:
-        for texts in axis:
-            for text in texts:
-                parse_fault(text)
-        return axis
 
     @field_validator("missions", "autopilots", "winds", "faults", "links", "airframes", "gains", "methods", "seeds")
     @classmethod
@@ -266,7 +274,7 @@ def _what(item: Any, keys: list[Any]) -> str:
         meant = f"; did you mean {near[0]}?" if near else ""
         return f"found an unknown key, expected one of docs/campaigns.md{meant}"
     if item["type"] == "value_error":
-        return message if "found" in message else f"{message}, found {shown(item['input'])}"
+        return message if "expected" in message else f"{message}, found {shown(item['input'])}"
     if keys and keys[-1] == "seeds":
         return f"found {shown(item['input'])}, expected a count, a list of seeds, or FIRST-LAST such as 1-50"
     expected = _FORMS.get(item["type"]) or message.removeprefix("Input should be ").split(", unable")[0]
