@@ -1,13 +1,16 @@
 """Sweeps: a file becomes runs, the same ones every time, and what it says wrongly is told in one line each."""
 
 import itertools
+import re
 from pathlib import Path
 
 import pytest
 
 from campaigns.sweep import Sweep, drawn_seeds, load_sweep
+from campaigns.sweepfile import SweepFile
+from campaigns.table import COLUMNS
 from companion.errors import ConfigError
-from companion.missionfile import parse_mission
+from companion.missionfile import all_keys, parse_mission
 
 MISSION = """\
 name: hop
@@ -221,3 +224,13 @@ def test_missions_of_several_vehicles_are_flown_as_they_are_and_refused_what_is_
 def test_two_ways_to_write_one_flight_are_refused_before_anything_is_flown(load) -> None:
     (told,) = problems(load, "winds: [mission, [1, -2]]")
     assert told == "line 1: sweep: two runs are the same flight: hop, seed 1, px4; expected values that differ"
+
+
+@pytest.mark.parametrize("file", sorted(Path("campaigns/examples").glob("*.yaml")), ids=lambda path: path.stem)
+def test_the_examples_are_sweeps_that_can_be_flown(file: Path) -> None:
+    assert load_sweep(file).runs
+
+
+def test_the_page_names_every_key_and_every_column() -> None:
+    named = set(re.findall(r"[a-z_0-9]+", " ".join(re.findall(r"`([^`]*)`", Path("docs/campaigns.md").read_text()))))
+    assert all_keys(SweepFile) - {"of_mission"} | set(COLUMNS) <= named
