@@ -3,6 +3,7 @@
 CampaignError
 ├── CampaignInterrupted  Ctrl-C, or a signal to end; what was done is kept
 └── SchedulerError  no Dask scheduler or worker that could be used, or none any more
+    └── AddressError  where it is was not said as tcp://HOST:PORT
 
 A flight that fails is no error but a result, and so is work that cannot be done (`campaigns.executors.base.Outcome`).
 """
@@ -27,3 +28,7 @@ class SchedulerError(CampaignError):
     def __init__(self, address: str, problem: str) -> None:
         self.address = address
         super().__init__(f"{address}: {problem}")
+
+
+class AddressError(SchedulerError):
+    """What was given for a scheduler's address is none."""

@@ -26,7 +26,7 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-from campaigns.errors import SchedulerError
+from campaigns.errors import AddressError, SchedulerError
 from campaigns.executors.base import Executor, Outcome, R, T, answer, told
 from campaigns.executors.local import local
 from campaigns.executors.versions import OURS, difference, versions
@@ -56,8 +56,8 @@ def dask(address: str) -> Executor:
 
     Raises
     ------
-    SchedulerError : the address is none, nobody is there, `distributed` is not installed, or a worker is not what we
-        are.
+    AddressError : the address is none.
+    SchedulerError : nobody is there, `distributed` is not installed, or a worker is not what we are.
     """
     host, port = _parts(address)
     if util.find_spec("distributed") is None:
@@ -252,7 +252,7 @@ def _parts(address: str) -> tuple[str, int]:
         parts = urlsplit(address)
         if parts.scheme == "tcp" and parts.hostname and parts.port and not parts.path:
             return parts.hostname, parts.port
-    raise SchedulerError(address, "expected tcp://HOST:PORT")
+    raise AddressError(address, "expected tcp://HOST:PORT")
 
 
 def _connected(address: str) -> "Client":

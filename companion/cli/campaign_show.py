@@ -167,6 +167,7 @@ def _tell_failures(failures: Sequence[Cluster], folder: Path, out: Console) -> N
     """The kinds, the commonest first, each with runs to look at."""
     if not failures:
         return
+    piped = not out.is_terminal
     out.print("\n[bold]failures by kind[/bold]")
     for cluster in failures[:MOST_CLUSTERS]:
         shared = "".join(f", all with {axis} {show.plain(value)}" for axis, value in cluster.common.items())
@@ -175,7 +176,7 @@ def _tell_failures(failures: Sequence[Cluster], folder: Path, out: Console) -> N
         )
         ids = " ".join(show.plain(run_id) for run_id in cluster.run_ids[:MOST_IDS])
         more = f" and {len(cluster.run_ids) - MOST_IDS} more" if len(cluster.run_ids) > MOST_IDS else ""
-        out.print(f"       [dim]{ids}{more}[/dim]", soft_wrap=True)
+        out.print(f"       [dim]{ids}{more}[/dim]", soft_wrap=piped)
     if len(failures) > MOST_CLUSTERS:
         out.print(f"       {len(failures) - MOST_CLUSTERS} kinds more: --json has them")
     again = f"companion campaign rerun {shlex.quote(str(folder))} {failures[0].run_ids[0]}"

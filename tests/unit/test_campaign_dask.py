@@ -21,7 +21,7 @@ from dask_work import raises_hangs_or_dies, square, squares_slowly
 from pyarrow import parquet
 
 from campaigns.campaign import Progress, fly_campaign, write_campaign_tables
-from campaigns.errors import SchedulerError
+from campaigns.errors import AddressError, SchedulerError
 from campaigns.executors.dask import dask
 from campaigns.executors.versions import difference, versions
 from campaigns.flying import fly_run
@@ -224,7 +224,7 @@ def test_what_is_no_scheduler_is_told(says: bytes, monkeypatch: pytest.MonkeyPat
     "address", ["127.0.0.1:8786", "tcp://127.0.0.1", "tcp://:8786", "tcp://a:99999", "http://a:1", ""]
 )
 def test_an_address_that_is_none_is_told(address: str) -> None:
-    with pytest.raises(SchedulerError, match="expected tcp://HOST:PORT"):
+    with pytest.raises(AddressError, match="expected tcp://HOST:PORT"):
         dask(address)
 
 
