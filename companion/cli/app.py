@@ -373,10 +373,12 @@ def _fail(text: str, code: int) -> NoReturn:
 
 
 def _exit_code(error: Exception) -> int:
-    from campaigns.errors import CampaignInterrupted
+    from campaigns.errors import AddressError, CampaignInterrupted
     from wire.errors import EndpointError
 
-    return INTERRUPTED if isinstance(error, CampaignInterrupted) else 2 if isinstance(error, EndpointError) else 1
+    if isinstance(error, CampaignInterrupted):
+        return INTERRUPTED
+    return 2 if isinstance(error, EndpointError | AddressError) else 1
 
 
 def _known_errors() -> tuple[type[Exception], ...]:
