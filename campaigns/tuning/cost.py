@@ -7,8 +7,10 @@
 
     cost = sum w_i part_i/base_i / sum w_i
 
-so the base itself costs 1 and 0.9 is a tenth better. A flight that is lost, by divergence, on the ground, or far off,
-costs LOST and more the earlier it ends, however good the others are: large, and finite, so that a search can go on.
+so the base itself costs 1 and 0.9 is a tenth better. Beyond a bound on activity or margin, BEYOND times the share that
+it is beyond comes on top, so that laws tuned at equal bounds are equal there. A flight that is lost, by divergence, on
+the ground, or far off, costs LOST and more the earlier it ends, however good the others are: large, and finite, so that
+a search can go on.
 """
 
 import math
@@ -27,6 +29,8 @@ from fakevehicle.vocabulary import FloatArray
 
 SETTLED_S = 2.5
 LOST = 100.0
+BEYOND = 10.0
+"""What it costs to be beyond a bound by as much as the bound."""
 FLOORS = {"tracking": 1e-3, "overshoot": 0.01, "activity": 1.0, "margin": 1.0}
 """A base is not taken for better than this, so that a part that it has not can be weighed."""
 
@@ -75,15 +79,18 @@ def parts(flown: Sequence[Flown], ms: float) -> Parts:
     )
 
 
-def score(found: Parts, base: Parts, weights: Mapping[str, float]) -> float:
-    """The cost of `found`; 1 for the base itself, unless a floor is in force."""
+def score(
+    found: Parts, base: Parts, weights: Mapping[str, float], bounds: Mapping[str, float | None] | None = None
+) -> float:
+    """The cost of `found`; 1 for the base itself, unless a floor is in force or it is beyond a bound."""
     if found.lost:
         return LOST * (2.0 - found.share)
     total = 0.0
     for name, weight in weights.items():
         unit = max(getattr(base, name), FLOORS[name])
         total += weight * getattr(found, name) / unit
-    return min(total / sum(weights.values()), LOST)
+    beyond = [float(getattr(found, name)) / most - 1.0 for name, most in (bounds or {}).items() if most is not None]
+    return min(total / sum(weights.values()) + BEYOND * sum(max(b, 0.0) for b in beyond), LOST)
 
 
 def evaluate(task: tuple[Spec, dict[str, float]]) -> Parts:

@@ -115,6 +115,13 @@ class Weights(_Model):
         return self
 
 
+class Bounds(_Model):
+    """What parts of the cost may be at most; more is not forbidden, but costs `cost.BEYOND` times the share beyond."""
+
+    activity: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] | None = None  # [rad/s^2]
+    margin: Annotated[float, Field(gt=1.0, allow_inf_nan=False)] | None = None  # Ms
+
+
 class Search(_Model):
     """How long is looked, and with what chance."""
 
@@ -141,6 +148,8 @@ class Spec(_Model):
     courses: Annotated[list[CourseModel], Field(min_length=1, max_length=MOST)]
     winds: Annotated[list[WindModel | Literal["calm"]], Field(min_length=1, max_length=MOST)]
     weights: Weights = Weights()
+    bounds: Bounds = Bounds()
+    start: Annotated[dict[str, Real], Field(max_length=MOST)] = {}  # first candidate, where it is not the base
     train: Annotated[int, Field(ge=1, le=1000)] = 2  # seeds of chance in a cost
     test: Annotated[int, Field(ge=2, le=1000)] = 20  # others, for the judgement after it
     seed: Annotated[int, Field(ge=0, le=2**31 - 1)] = 1  # of both
@@ -169,6 +178,8 @@ class Spec(_Model):
     @model_validator(mode="after")
     def _apart(self) -> "Spec":
         searched = {name for first, span in self.parameters.items() for name in (first, *span.also)}
+        for name in sorted(set(self.start) - set(self.parameters)):
+            raise ValueError(f"start: {name}: found a parameter that is not searched, expected one of parameters")
         for name in sorted(searched & set(self.set)):
             raise ValueError(f"{name}: found in set and in parameters, expected in one of them")
         if "SIM_WIND_GUST" in searched | set(self.set):
@@ -213,12 +224,12 @@ class Spec(_Model):
                 found[name] = float(_KNOWN.describe(name).coerced(min(max(value, span.low), span.high)))
         return found
 
-    def start(self) -> FloatArray:
-        """(n_dim,) where the base is in the ranges, at their edges where it is beyond."""
+    def first(self) -> FloatArray:
+        """(n_dim,) where `start`, or else the base, is in the ranges, at their edges where it is beyond."""
         base = ParameterSet(PARAMETERS, self.fixed())
         unit = []
         for name, span in self.parameters.items():
-            value = min(max(float(base[name]), span.low), span.high)
+            value = min(max(self.start.get(name, float(base[name])), span.low), span.high)
             if span.log:
                 unit.append(np.log(value / span.low) / np.log(span.high / span.low))
             else:
@@ -231,7 +242,7 @@ class Spec(_Model):
 
     def digest(self) -> str:
         """Of all that the parts of a cost depend on: the same digest and parameters, the same parts."""
-        told = self.model_dump(mode="json", exclude={"name", "search", "test", "unit", "weights"})
+        told = self.model_dump(mode="json", exclude={"name", "search", "test", "unit", "weights", "bounds", "start"})
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -285,5 +296,5 @@ def _problem(item: Any, node: Any) -> str:
 
 def _keys() -> set[str]:
     """Every key there is."""
-    models = (Spec, Range, CourseModel, _EightModel, _StepModel, _HoverModel, WindModel, Weights, Search)
+    models = (Spec, Range, CourseModel, _EightModel, _StepModel, _HoverModel, WindModel, Weights, Bounds, Search)
     return {name for model in models for name in model.model_fields}

@@ -63,7 +63,7 @@ class Evaluator:
 
     def __init__(self, spec: Spec, executor: Executor, journal: Journal | None, progress: Progress | None) -> None:
         self._spec, self._executor, self._journal, self._progress = spec, executor, journal, progress
-        self._weights = spec.weighed()
+        self._weights, self._bounds = spec.weighed(), spec.bounds.model_dump()
         self._seen: dict[str, Parts] = {}
         self.history: list[float] = []
         self.best: dict[str, float] = {}
@@ -72,13 +72,13 @@ class Evaluator:
         if self.unit.lost:
             raise CompanionError(f"{spec.name}: {spec.unit or spec.base} does not fly the courses: {self.unit.lost}")
         self.base = self._fly([{}], spec)[0]
-        self.parts, self.cost = self.base, score(self.base, self.unit, self._weights)
+        self.parts, self.cost = self.base, score(self.base, self.unit, self._weights, self._bounds)
 
     def __call__(self, rows: FloatArray) -> FloatArray:
         """Costs (m,) of candidates (m, n_dim) in the unit cube."""
         candidates = [self._spec.values(row) for row in rows]
         for values, parts in zip(candidates, self._fly(candidates, self._spec), strict=True):
-            cost = score(parts, self.unit, self._weights)
+            cost = score(parts, self.unit, self._weights, self._bounds)
             self.history.append(cost)
             if cost < self.cost:
                 self.best, self.parts, self.cost = values, parts, cost
@@ -129,8 +129,8 @@ def find(
     """
     cost = Evaluator(spec, executor, journal, progress)
     s = spec.search
-    search(method, cost, spec.start(), budget=s.budget, population=s.population, seed=s.seed)
-    before = score(cost.base, cost.unit, spec.weighed())
+    search(method, cost, spec.first(), budget=s.budget, population=s.population, seed=s.seed)
+    before = score(cost.base, cost.unit, spec.weighed(), spec.bounds.model_dump())
     return Found(method, cost.best, cost.cost, cost.parts, before, cost.base, np.array(cost.history))
 
 

@@ -98,7 +98,7 @@ def _print(spec: Spec, found: Found, rows: list[report.Row], folder: Path) -> No
     if not found.values:
         console.print("Nothing cheaper than the base was found: result.params is the base.")
     changed = Table("parameter", "before", "after", title="Gains", title_justify="left", box=SIMPLE)
-    start = spec.values(spec.start())
+    start = spec.values(spec.first())
     for name, value in found.values.items():
         changed.add_row(name, f"{start[name]:.4g}", f"{value:.4g}")
     if found.values:

@@ -88,6 +88,7 @@ class TestTheFile:
             ("  FT_VXY_KP: {low: 1, hihg: 2}", "did you mean high?"),
             ("  MC_ROLL_P: {low: 1, high: 2, also: [MC_ROLL_P]}", "MC_ROLL_P: found twice"),
             ("  MPC_XY_P: {low: 1, high: 2}", "MPC_XY_P: found in set and in parameters"),
+            ("  FT_VXY_KP: {low: 1, high: 2}\nstart: {MPC_Z_P: 1}", "start: MPC_Z_P: found a parameter that is not"),
             ("  FT_VXY_KP: {low: 1, high: 2}\nbase: best", "line 6: base: found 'best'"),
             ("  FT_VXY_KP: {low: 1, high: 2}\nairframe: x5000", "expected an airframe"),
             ("  FT_VXY_KP: {low: 1, high: 2}\nsearch: {budget: 5, population: 20}", "found a budget of 5"),
@@ -115,7 +116,9 @@ class TestTheFile:
             "MC_PITCH_P": 2.0,
             "FT_VXY_KP": pytest.approx(math.sqrt(12.0)),
         }
-        assert found.values(found.start()) == {"MC_ROLL_P": 8.0, "MC_PITCH_P": 8.0, "FT_VXY_KP": pytest.approx(6.0)}
+        started = found.model_copy(update={"start": {"FT_VXY_KP": 3.0}})
+        assert started.values(started.first())["FT_VXY_KP"] == pytest.approx(3.0)
+        assert found.values(found.first()) == {"MC_ROLL_P": 8.0, "MC_PITCH_P": 8.0, "FT_VXY_KP": pytest.approx(6.0)}
 
 
 KP = {"FT_VXY_KP": {"low": 1.0, "high": 12.0, "log": True}}
@@ -144,6 +147,12 @@ class TestTheCost:
         assert score(unit, unit, weights) == 1.0
         better = Parts(0.04, 0.2, 900.0, 2.0)
         assert score(better, unit, weights) == pytest.approx(0.9)
+
+    def test_what_is_beyond_a_bound_costs_by_how_far_and_what_is_within_it_nothing(self):
+        unit = Parts(0.05, 0.2, 300.0, 2.0)
+        within, beyond = {"margin": 2.0, "activity": None}, {"margin": 1.6, "activity": 200.0}
+        assert score(unit, unit, {"tracking": 1.0}, within) == 1.0
+        assert score(unit, unit, {"tracking": 1.0}, beyond) == pytest.approx(1.0 + 10.0 * (0.25 + 0.5))
 
     def test_a_lost_flight_costs_more_than_any_other_and_the_more_the_earlier(self):
         unit = Parts(0.05, 0.2, 300.0, 2.0)
@@ -330,7 +339,7 @@ def test_a_mean_of_pairs_is_held_against_the_textbooks():
 def test_every_law_is_a_case_of_the_one_and_may_tune_its_own_terms():
     for law in LAWS:
         found = law_spec(law, budget=5, population=5, search_seed=1, seeds=2)
-        values = ParameterSet(PARAMETERS, {**found.fixed(), **found.values(found.start())})
+        values = ParameterSet(PARAMETERS, {**found.fixed(), **found.values(found.first())})
         assert found.at_unit().base == "pid"
         if law == "PID":
             assert {values[f"FT_VXY_{term}"] for term in ("LAMBDA", "MU")} == {1.0}
