@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from campaigns.executors.base import told
-from campaigns.runs import Run
+from campaigns.runs import Run, digest_of
 from companion.testing.flight import fly
 from companion.testing.spec import FlightResult
 from logs.errors import LogsError
@@ -46,7 +46,8 @@ def fly_run(run: Run) -> Flown:
 
     Raises
     ------
-    OSError, MemoryError : of the machine. Whatever else goes wrong is a result.
+    OSError, MemoryError : of the machine, on which a file that the run needs may not be, or be another one. Whatever
+        else goes wrong is a result.
     """
     return _flown(run, None)
 
@@ -97,6 +98,9 @@ def lost_row(run: Run, why: str) -> Row:
 
 
 def _flown(run: Run, record: Path | None) -> Flown:
+    for path, digest in run.files().items():
+        if digest_of(path) != digest:
+            raise OSError(f"{path}: is not the file that the sweep was read with")
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         result = fly(run.spec(record))

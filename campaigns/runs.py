@@ -50,7 +50,7 @@ class Run:
     ----------
     data : the mission's bytes, as they are flown.
     file : its name in errors; files of voxels and clouds are looked for beside it.
-    maps : digests of those files.
+    maps : those files' names and digests.
     mission : its name.
     family, world_seed : of the planner's families, if it is of one.
     method : that it is planned with.
@@ -66,7 +66,7 @@ class Run:
     mission: str
     seed: int
     autopilot: Autopilot = "px4"
-    maps: tuple[str, ...] = ()
+    maps: tuple[tuple[str, str], ...] = ()
     family: str = ""
     world_seed: int | None = None
     method: str = ""
@@ -91,7 +91,7 @@ class Run:
         """The same for the same flight, and for no other."""
         told: dict[str, Any] = {
             "mission": hashlib.sha256(self.data).hexdigest(),
-            "maps": self.maps,
+            "maps": [digest for _, digest in self.maps],
             "autopilot": self.autopilot,
             "seed": self.seed,
             "wind": self.blowing,
@@ -123,6 +123,11 @@ class Run:
             limit_s=self.limit_s,
         )
 
+    def files(self) -> dict[Path, str]:
+        """The files beside its mission's that decide how it goes, and their digests."""
+        found = {Path(self.file).parent / name: digest for name, digest in self.maps}
+        return found | ({Path(self.airframe): self.airframe_sha} if self.airframe_sha else {})
+
     def columns(self) -> dict[str, str | int | float | None]:
         """What it is, as columns of a table."""
         return {
@@ -150,3 +155,13 @@ def link_text(link: LinkFaults) -> str:
     said = [text for text in said if not text.endswith("=0")]
     said += [f"blackout={start:g}-{end:g}" for start, end in link.blackouts]
     return " ".join(said + ["shouting"] * link.shouting)
+
+
+def digest_of(path: Path) -> str:
+    """SHA-256 of a file.
+
+    Raises
+    ------
+    OSError : it cannot be read.
+    """
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -65,6 +65,12 @@ class Store:
     def runs(self) -> Path:
         return self.folder / "runs"
 
+    @property
+    def of_other_sources(self) -> bool:
+        """Whether it was begun by other sources than ours, of the same version."""
+        begun: object = self.told.get("versions")
+        return isinstance(begun, dict) and begun.get("source") != versions()["source"]
+
     def done(self) -> set[str]:
         """Ids of the runs that are done."""
         with suppress(FileNotFoundError):
@@ -301,7 +307,7 @@ def _run(told: dict[str, Any], data: bytes) -> Run:
             "data": data,
             "link": link,
             "squalls": tuple(Squall(**{**s, "velocity": tuple(s["velocity"])}) for s in told["squalls"]),
-            "parameters": tuple((name, value) for name, value in told["parameters"]),
+            **{key: tuple((name, value) for name, value in told[key]) for key in ("parameters", "maps")},
         }
     )
 

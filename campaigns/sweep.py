@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import yaml
 
-from campaigns.runs import Run, Squall
+from campaigns.runs import Run, Squall, digest_of
 from campaigns.sweepfile import EXPECTED, MISSION, MOST_RUNS, Gains, SweepFile, Wind, read_sweep
 from companion.cli.worlds import mission_text
 from companion.errors import ConfigError, MissionError
@@ -182,7 +182,7 @@ class _Resolving:
         path = str((self._path.parent / name).resolve()) if is_file else name
         try:
             load_airframe(path)
-            return path, hashlib.sha256(Path(path).read_bytes()).hexdigest() if is_file else ""
+            return path, digest_of(Path(path)) if is_file else ""
         except (VehicleError, OSError) as error:
             self._flaw(["airframes", k], str(error))
             return name, ""
@@ -284,7 +284,7 @@ def _with_method(data: bytes, method: str, file: str) -> bytes:
     return yaml.safe_dump({**document, "method": method}, sort_keys=False, allow_unicode=True).encode()
 
 
-def _maps(mission: Mission, folder: Path) -> tuple[str, ...]:
-    """Digests of the files of voxels and clouds that a mission names."""
+def _maps(mission: Mission, folder: Path) -> tuple[tuple[str, str], ...]:
+    """Names and digests of the files of voxels and clouds that a mission names."""
     named = [o.voxels or o.cloud for o in mission.world.obstacles]
-    return tuple(hashlib.sha256((folder / m.file).read_bytes()).hexdigest() for m in named if m is not None)
+    return tuple((m.file, digest_of(folder / m.file)) for m in named if m is not None)

@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +17,11 @@ import pytest
 
 from campaigns.campaign import Progress, fly_campaign, record_flights, write_campaign_tables
 from campaigns.executors import local
-from campaigns.flying import fly_run
+from campaigns.flying import fly_run, record_run
 from campaigns.store import Store, open_store
 from campaigns.sweep import load_sweep
 from companion.testing.flight import fly
+from logs.errors import LogsError
 
 MISSION = """\
 name: nudge
@@ -129,6 +131,28 @@ def test_whatever_ends_it_and_whoever_goes_on_the_table_is_the_same_to_the_byte(
     assert (told["flown"], told["flown_now"], told["not_flown"], told["recordings"]) == (4, 0, [], 1)
     assert (out / "runs.parquet").read_bytes() == table
     assert not list((out / "runs").glob(".*"))
+
+
+def test_a_flight_that_does_not_end_is_ended_and_a_failure(folder: Path) -> None:
+    run = replace(load_sweep(folder / "sweep.yaml").runs[0], limit_s=3.0)
+    row = fly_run(run).row
+    assert (row["status"], row["ok"], row["simulated_s"]) == ("flown", False, pytest.approx(3.0, abs=0.1))
+    assert row["cause"].startswith("not over after 3 s of simulated time")
+
+
+def test_what_is_wrong_with_us_is_a_result_and_with_the_machine_none(folder: Path, tmp_path: Path) -> None:
+    run = load_sweep(folder / "sweep.yaml").runs[0]
+    row = fly_run(replace(run, parameters=(("NO_SUCH", 1.0),))).row
+    assert (row["status"], row["ok"], row["simulated_s"]) == ("flown", False, None)
+    assert row["cause"].startswith("KeyError at ")
+    airframe = tmp_path / "own.yaml"
+    with pytest.raises(FileNotFoundError):
+        fly_run(replace(run, airframe=str(airframe), airframe_sha="0"))
+    airframe.write_text("mass: 1\n")
+    with pytest.raises(OSError, match="is not the file that the sweep was read with"):
+        fly_run(replace(run, airframe=str(airframe), airframe_sha="0"))
+    with pytest.raises((OSError, LogsError)):
+        record_run((run, Path("/proc/none/flight.mcap")))
 
 
 def test_a_run_flown_again_is_the_very_same(folder: Path, table: bytes) -> None:

@@ -4,6 +4,7 @@ import itertools
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from campaigns.sweep import Sweep, drawn_seeds, load_sweep
@@ -141,6 +142,29 @@ def test_gains_are_a_preset_a_file_or_single_parameters_over_them(load) -> None:
     assert dict(runs[1].parameters)["FT_VXY_KP"] == 6.0
     assert dict(runs[2].parameters) == {"FT_VXY_KP": 9.0, "FT_VXY_KI": 2.0}
     assert dict(runs[3].parameters) == {**dict(runs[1].parameters), "FT_VXY_KP": 7.0}
+
+
+def test_an_airframe_of_a_file_is_told_apart_by_its_content(load, tmp_path: Path) -> None:
+    shipped = Path("fakevehicle/airframes/iris.yaml").read_text()
+    (tmp_path / "mine.yaml").write_text(shipped)
+    (mine,) = load("airframes: [mine.yaml]").runs
+    assert mine.columns()["airframe"] == "mine"
+    assert list(mine.files()) == [tmp_path / "mine.yaml"]
+    (tmp_path / "mine.yaml").write_text(shipped + "# heavier\n")
+    (other,) = load("airframes: [mine.yaml]").runs
+    assert other.run_id != mine.run_id
+
+
+def test_a_mission_is_told_apart_by_the_maps_that_it_names(load, tmp_path: Path) -> None:
+    np.savez(tmp_path / "map.npz", occupied=np.ones((2, 2, 2), bool), origin=[7.0, 7.0, 0.0], resolution=0.5)
+    world = "world: {bounds: {north: [0, 10], east: [0, 10], altitude: [0, 4]}, obstacles: [{voxels: {file: map.npz}}]}"
+    (tmp_path / "mapped.yaml").write_text(MISSION.replace(MISSION.splitlines()[2], world))
+    (one,) = load("", "missions: [mapped.yaml]").runs
+    assert list(one.files()) == [tmp_path / "map.npz"]
+    np.savez(tmp_path / "map.npz", occupied=np.ones((2, 2, 3), bool), origin=[7.0, 7.0, 0.0], resolution=0.5)
+    (other,) = load("", "missions: [mapped.yaml]").runs
+    assert other.data == one.data
+    assert other.run_id != one.run_id
 
 
 def test_a_method_is_written_into_the_mission_that_is_flown(load) -> None:

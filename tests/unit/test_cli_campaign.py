@@ -114,7 +114,7 @@ def test_shards_fly_their_part(companion) -> None:
 
 def test_a_scheduler_that_cannot_be_is_one_line_and_leaves_no_folder(companion) -> None:
     code, _, err = companion("s.yaml", "--scheduler", "nowhere")
-    assert code == 1
+    assert code == 2
     assert err[-1].startswith("companion: nowhere: ")
     assert not Path("s-campaign").exists()
 
@@ -144,6 +144,17 @@ def test_a_run_that_gives_another_row_now_is_told_column_by_column_with_exit_cod
     assert (code, out.splitlines()[-1]) == (3, "differs in phase, tracking_p95_m")
     told = json.loads(companion("rerun", "s-campaign", run_id, "--json")[1])
     assert told["differing"]["phase"] == {"stored": "done", "again": "failed"}
+
+
+def test_it_says_so_when_it_was_begun_by_other_sources_of_the_same_version(companion) -> None:
+    companion("s.yaml")
+    file = Path("s-campaign/campaign.json")
+    told = json.loads(file.read_text())
+    told |= {"revision": "abc", "versions": {**told["versions"], "source": "another"}}
+    file.write_text(json.dumps(told))
+    code, _, err = companion("s.yaml", "--resume")
+    assert code == 0
+    assert "companion: s-campaign: begun by other sources (revision abc) of this version: its rows may not be" in err[1]
 
 
 def test_without_pyarrow_it_says_so_before_it_flies(companion, monkeypatch: pytest.MonkeyPatch) -> None:
