@@ -22,6 +22,8 @@ from fakevehicle.params import ParameterSet
 from fakevehicle.vocabulary import FloatArray
 
 PARAMS, RESULT, CONVERGENCE, BEFORE_AFTER = "result.params", "result.json", "convergence.png", "before_after.png"
+LARGER = 10
+"""Times, by which errors are drawn larger over ground, where they would not be seen."""
 BEFORE, AFTER = "#8a8f98", "#0b6fb8"
 
 
@@ -154,7 +156,7 @@ def _convergence(found: Found, path: Path) -> None:
     axes.set(xlabel="evaluations", ylabel="cost", ylim=(0.95 * best[-1], 1.01 * top), xlim=(0, len(n) + 1))
     axes.set_title(f"{found.method}: cost {found.base_cost:.3f} to {found.cost:.3f}")
     axes.grid(alpha=0.3)
-    axes.legend(loc="upper right", framealpha=0.95)
+    figure.legend(loc="outside lower center", ncols=4, frameon=False)
     figure.savefig(path, dpi=110)
 
 
@@ -168,26 +170,31 @@ def _before_after(spec: Spec, found: Found, table: Sequence[Row], path: Path) ->
     flown = spec.flown()
     followed = next((pair for pair in reversed(flown) if not isinstance(pair[0], Step)), None)
     jumped = next((pair for pair in reversed(flown) if isinstance(pair[0], Step)), None)
-    for values, colour, label in (({}, BEFORE, "before"), (found.values, AFTER, "after")):
+    for values, colour, label, width in (({}, BEFORE, "before", 2.4), (found.values, AFTER, "after", 1.1)):
         overrides = {**spec.fixed(), **values}
         if followed is not None:
             f = fly(*followed, seed, ParameterSet(PARAMETERS, overrides), spec.airframe)
-            track = _track(f)
-            over.plot(track[:, 1], track[:, 0], color=colour, linewidth=1.0, label=label)
+            meant = _meant(f)
+            if not values:
+                over.plot(meant[:, 1], meant[:, 0], color="black", linewidth=0.8, linestyle="--", label="meant")
+            drawn = meant + LARGER * f.error_n
+            over.plot(drawn[:, 1], drawn[:, 0], color=colour, linewidth=width, label=label)
             t = TICK_S * np.arange(len(f.error_n))
-            time.plot(t, np.hypot(*f.error_n[:, :2].T), color=colour, linewidth=1.0, label=label)
-            over.set_title(f"{course_name(f)}, over ground")
+            time.plot(t, np.hypot(*f.error_n[:, :2].T), color=colour, linewidth=width, label=label)
+            over.set_title(f"{course_name(f)}, the error drawn {LARGER} times larger")
         if jumped is not None:
             f = fly(*jumped, seed, ParameterSet(PARAMETERS, overrides), spec.airframe)
             metres = f.course.metres if isinstance(f.course, Step) else 0.0
-            step.plot(TICK_S * np.arange(len(f.error_n)), metres + f.error_n[:, 0], color=colour, label=label)
+            step.plot(TICK_S * np.arange(len(f.error_n)), metres + f.error_n[:, 0], color=colour, lw=width, label=label)
             step.set_title(course_name(f))
     over.set(xlabel="east, m", ylabel="north, m", aspect="equal")
     time.set(xlabel="s", ylabel="distance to the setpoint, m", title="error over ground", ylim=(0, None))
     step.set(xlabel="s after the step", ylabel="north, m")
     for axes, missing in ((over, followed is None), (time, followed is None), (step, jumped is None)):
-        axes.set_axis_off() if missing else axes.legend(loc="best")
-        axes.grid(alpha=0.3)
+        axes.set_axis_off() if missing else axes.grid(alpha=0.3)
+    for axes in (time, step):
+        axes.legend(loc="best")
+    over.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
     unseen = [row for row in table if row.unseen]
     at = np.arange(len(unseen))
     for shift, name, colour in ((-0.2, "before", BEFORE), (0.2, "after", AFTER)):
@@ -202,12 +209,11 @@ def _before_after(spec: Spec, found: Found, table: Sequence[Row], path: Path) ->
     figure.savefig(path, dpi=110)
 
 
-def _track(f: Flown) -> FloatArray:
-    """Where truth was, from the crossing of the eight [m]: its error and where it was meant to be."""
-    place = np.array([0.0, 0.0, -HEIGHT])
-    meant: FloatArray = np.zeros_like(f.error_n) + place
+def _meant(f: Flown) -> FloatArray:
+    """(n, 3) where it was meant to be, from the crossing of the eight [m]."""
+    meant: FloatArray = np.zeros_like(f.error_n) + np.array([0.0, 0.0, -HEIGHT])
     if isinstance(f.course, Eight):
         first = round(START_S / TICK_S) + 1
         for k in range(len(meant)):
             meant[k] = eight(f.course.speed, (first + k) * TICK_S)[0]
-    return meant + f.error_n
+    return meant
