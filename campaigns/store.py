@@ -101,9 +101,9 @@ class Store:
         return [{**found.row, "recording": self.recording(found.row["run_id"])} for found in self.stored()]
 
     def recording(self, run_id: str) -> str:
-        """Where its recording is kept, relative to the folder; empty: there is none."""
+        """Where its recording is kept, relative to the folder; empty: there is none. A folder of several vehicles'."""
         path = self.runs / run_id / RECORDING
-        return path.relative_to(self.folder).as_posix() if path.is_file() else ""
+        return path.relative_to(self.folder).as_posix() if path.exists() else ""
 
     def complete(self, run: Run, flown: Flown, attempts: int) -> None:
         """Keep what came of a run.
@@ -155,7 +155,7 @@ class Store:
             with self.writing():
                 if keep and sorted(os.listdir(partial)) != [RECORDING]:
                     raise OSError(f"the recording of {run_id} is not whole")
-                if keep:
+                if keep and not self.recording(run_id):
                     os.replace(partial / RECORDING, self.runs / run_id / RECORDING)
         finally:
             shutil.rmtree(partial, ignore_errors=True)

@@ -119,6 +119,23 @@ def test_recordings_are_kept_of_failures_and_of_the_sample_and_of_nothing_else(s
     assert progress.recorded == len(sweep.sampled | {failed}) == len(executor.begun) - 6
 
 
+def test_the_recordings_of_several_vehicles_are_a_folder_and_kept_as_such(
+    sweep: Sweep, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def several(item: tuple[Run, Path]) -> Flown:
+        item[1].mkdir()
+        (item[1] / "1.mcap").write_bytes(b"recording")
+        return made_up(item[0])
+
+    monkeypatch.setattr(campaign, "record_run", several)
+    fly(sweep, folder, Here())
+    row = pq.read_table(folder / "runs.parquet").to_pylist()[3]
+    assert (folder / row["recording"] / "1.mcap").exists()
+    again = Here()
+    fly(sweep, folder, again)
+    assert again.begun == []
+
+
 def test_what_is_done_is_not_flown_again_and_the_table_is_the_same(sweep: Sweep, folder: Path, tmp_path: Path) -> None:
     fly(sweep, folder, Here())
     whole = (folder / "runs.parquet").read_bytes()
