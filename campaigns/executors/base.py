@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
+MOST_TOLD = 500
+"""Letters of an exception: it goes into a row of a table."""
 T = TypeVar("T")
 R = TypeVar("R")
 
@@ -77,4 +79,4 @@ def told(error: Exception) -> str:
     """An exception in one line, with the place where it was raised."""
     places = traceback.extract_tb(error.__traceback__)
     where = f" at {places[-1].filename.rpartition('/')[2]}:{places[-1].lineno}" if places else ""
-    return f"{type(error).__name__}{where}: {' '.join(str(error).split())}"
+    return f"{type(error).__name__}{where}: {' '.join(str(error).split())[:MOST_TOLD]}"

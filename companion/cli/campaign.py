@@ -23,7 +23,7 @@ from campaigns.campaign import (
     shard_of,
     write_campaign_tables,
 )
-from campaigns.errors import CampaignError, CampaignInterrupted
+from campaigns.errors import CampaignError, CampaignInterrupted, SchedulerError
 from campaigns.executors import Executor, local
 from campaigns.flying import Row, fly_run, record_run
 from campaigns.runs import Run
@@ -34,6 +34,8 @@ from companion.cli import show
 
 TELL_S = 10.0
 """Between two lines where there is no terminal [s]."""
+FEW = 8
+"""Flights from which no pace is taken yet."""
 CAUSES = 3
 DIFFERS = 3
 _SHARD = re.compile(r"([1-9]\d{0,5})/([1-9]\d{0,5})")
@@ -79,6 +81,9 @@ def _fly(sweep: Sweep, store: Store, runs: Sequence[Run], there: Executor, here:
     except KeyboardInterrupt:
         done = f"{len(store.done())} of {len(store.run_ids)} runs are done"
         raise CampaignInterrupted(f"{store.folder}: interrupted, {done}: --resume goes on") from None
+    except SchedulerError as error:
+        done = f"{len(store.done())} of {len(store.run_ids)} runs are done"
+        raise CampaignError(f"{error}; {done}: --resume goes on") from error
     finally:
         store.clear_partial()
         write_campaign_tables(sweep, store, progress.lost)
@@ -138,6 +143,7 @@ class Clock:
 
     def __init__(self) -> None:
         self._began = time.monotonic()
+        self._first: tuple[float, int] | None = None
 
     def seconds(self) -> float:
         """Since the beginning."""
@@ -153,7 +159,13 @@ class Clock:
         left = progress.wanted - progress.done - len(progress.lost)
         if not progress.now or not left:
             return said
-        return f"{said}, {_duration(left * self.seconds() / progress.now)} left"
+        return f"{said}, {_duration(left * self._each_s(progress.now))} left"
+
+    def _each_s(self, now: int) -> float:
+        """Between two that are flown [s]: since the first, which had to wait for imports and kernels."""
+        self._first = self._first or (self.seconds(), now)
+        since_s, before = self._first
+        return self.seconds() / now if now < before + FEW else (self.seconds() - since_s) / (now - before)
 
 
 def _duration(seconds: float) -> str:

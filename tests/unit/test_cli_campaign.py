@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from campaigns import campaign
+from campaigns.errors import SchedulerError
 from campaigns.executors.base import Outcome
 from campaigns.flying import FIGURES, Flown
 from campaigns.runs import Run
@@ -37,6 +38,8 @@ class Script:
                     yield Outcome(item, work(item))
                 case "Ctrl-C":
                     raise KeyboardInterrupt
+                case "the scheduler is gone" as why:
+                    raise SchedulerError("tcp://a:1", why)
                 case why:
                     yield Outcome(item, infrastructure=why, attempts=3)
 
@@ -97,6 +100,27 @@ def test_ctrl_c_is_one_line_that_says_how_to_go_on_and_exit_code_130(companion) 
     assert Path("s-campaign/runs.parquet").exists()
     code, out, _ = companion("s.yaml", "--resume")
     assert (code, out.splitlines()[0][:34]) == (0, "4 of 4 runs flown (2 before), 1 di")
+
+
+def test_a_scheduler_that_is_lost_is_one_line_that_says_what_is_safe(companion) -> None:
+    code, _, err = companion("s.yaml", told={3: "the scheduler is gone"})
+    assert code == 1
+    assert err[-1] == "companion: tcp://a:1: the scheduler is gone; 2 of 4 runs are done: --resume goes on"
+    assert Path("s-campaign/runs.parquet").exists()
+    assert companion("s.yaml", "--resume")[1].startswith("4 of 4 runs flown (2 before)")
+
+
+def test_the_time_left_does_not_count_how_long_the_first_took_to_begin(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 0.0
+    monkeypatch.setattr("time.monotonic", lambda: now)
+    clock, progress = cli.Clock(), campaign.Progress(wanted=1000)
+    assert clock.words(progress) == "0 of 1000 flown, 0 failed"
+    now, progress.now = 100.0, 1  # imports, kernels, a scheduler's workers
+    assert clock.words(progress).endswith(", 27 h 45 min left")
+    for progress.now in range(2, 101):
+        now += 1.0
+        said = clock.words(progress)
+    assert said == "100 of 1000 flown, 0 failed, 15 min 00 s left"
 
 
 @pytest.mark.parametrize("shard", ["0/4", "5/4", "1/0", "1-4", "x", "1/"])
