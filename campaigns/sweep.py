@@ -6,6 +6,7 @@ runs, and a longer list of drawn seeds begins with the shorter one. Seeds that a
 
 import hashlib
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -142,7 +143,7 @@ class _Resolving:
     def _sampled(self, runs: Sequence[Run]) -> frozenset[str]:
         ids = [run.run_id for run in runs]
         if len(set(ids)) < len(ids):
-            twice = runs[next(k for k, run_id in enumerate(ids) if run_id in ids[:k])]
+            twice = runs[ids.index(Counter(ids).most_common(1)[0][0])]
             text = f"line 1: sweep: two runs are the same flight: {twice.mission}, seed {twice.seed}, {twice.autopilot}"
             raise ConfigError(str(self._path), [f"{text}; expected values that differ"])
         rng = np.random.default_rng([self._asked.seed, RECORDED])

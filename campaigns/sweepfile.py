@@ -5,6 +5,7 @@ docs/campaigns.md has every key. What the file names (missions, parameter files,
 
 import difflib
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -213,9 +214,11 @@ class SweepFile(Model):
     @field_validator("missions", "autopilots", "winds", "faults", "links", "airframes", "gains", "methods", "seeds")
     @classmethod
     def _each_once(cls, axis: Any) -> Any:
-        if isinstance(axis, list) and len({repr(value) for value in axis}) < len(axis):
-            twice = next(value for k, value in enumerate(axis) if value in axis[:k])
-            raise ValueError(f"found {shown(twice)} twice, expected each value once")
+        if isinstance(axis, list):
+            told = [repr(value) for value in axis]
+            most, times = Counter(told).most_common(1)[0] if told else ("", 1)
+            if times > 1:
+                raise ValueError(f"found {shown(axis[told.index(most)])} twice, expected each value once")
         return axis
 
     @model_validator(mode="after")
