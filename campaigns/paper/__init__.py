@@ -8,6 +8,7 @@ worlds                  Table 2 and Fig. 5: the planners, and their plans flown
 holding, controllers    Fig. 6: the printed gains in wind; laws and optimisers tuned alike
 equations               what follows from the equations as they are printed
 claims       each claim as a row; its verdict is computed from the results, never written by hand
+verdicts, planner_rules, search_rules, gain_rules       what computes them
 figures      the pictures
 page         the page; it has no figure that is not in the results
 run          all of it, in order

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from campaigns.executors import Executor
-from campaigns.tuning.compare import CONDITIONS, LAWS, Say, compare_controllers, compare_optimisers, law_spec
+from campaigns.tuning.compare import CONDITIONS, LAWS, UNIT, Say, compare_controllers, compare_optimisers, law_spec
 from campaigns.tuning.optimisers import METHODS
 from campaigns.tuning.statistics import Interval
 from fakevehicle.control.gains import PARAMETERS, PRESETS
@@ -23,6 +23,8 @@ FEWEST = 5
 """Candidates, of differential evolution."""
 SPEED = 5.0
 """Of the figure of eight [m/s]."""
+METHOD = "haoaroa"
+"""By which laws are tuned: the paper's own."""
 TUNED = "FOPID-TID"
 SHOWN = ("KP", "KT", "KI", "KD", "LAMBDA", "MU")
 """Of a velocity loop's parameters, those that are drawn beside the paper's five."""
@@ -80,6 +82,7 @@ def laws(item: Laws, executor: Executor, folder: Path, say: Say) -> dict[str, An
         budget=item.budget,
         seeds=item.unseen,
         population=population(item.budget),
+        method=METHOD,
         conditions=item.courses.conditions(),
         executor=executor,
         folder=folder,
@@ -101,6 +104,7 @@ def laws(item: Laws, executor: Executor, folder: Path, say: Say) -> dict[str, An
         "budget": item.budget,
         "population": population(item.budget),
         "winds": list(compared.winds),
+        "unit": UNIT,
         "rows": rows,
         "gains": gains,
         "costs": {name: law.found.cost for name, law in compared.laws.items()},

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from campaigns.paper import printed, worlds
-from campaigns.paper.claims import TUNERS
+from campaigns.paper.gain_rules import TUNERS
 from campaigns.paper.search import DIMENSION, benchmark
 from campaigns.paper.stages import unwritable
 from companion.errors import CompanionError
@@ -29,7 +29,7 @@ LEVELS = 24
 GRID = 161
 BUSY = 1e-3
 """Above a landscape's minimum, what its logarithm begins with."""
-RED, GREEN, GREY = "#c0392b", "#148f77", "#7f8c8d"
+RED, GREEN = "#c0392b", "#148f77"
 CLEARANCE = 0.75
 """From obstacles to the middle of the vehicle, as planned: hull and clearance [m]; drawn as a halo."""
 

@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from campaigns.paper.claims import TUNERS, Verdict
+from campaigns.paper.gain_rules import TUNERS
+from campaigns.paper.verdicts import Verdict
 
 Results = Mapping[str, Any]
 NONE, ENDLESS = "-", "∞"
@@ -231,7 +232,7 @@ def gains(results: Results, figures: str) -> Iterator[str]:
     yield from picture(figures, "controllers", "RMS of each law, and the optimisers' lowest costs")
     yield (
         f"Optimisers on FOPID-TID's gains, {tuners['budget']} evaluations each, population {tuners['population']}; "
-        "the lowest cost, in units of the default gains' cost:"
+        f"the lowest cost, in units of what the preset `{laws['unit']}` costs:"
     )
     yield ""
     cells = (

@@ -9,11 +9,12 @@ from typing import Any
 
 from campaigns.executors import Executor
 from campaigns.paper import controllers, figures, functions, holding, printed, search, worlds
-from campaigns.paper.claims import Verdict, judge
+from campaigns.paper.claims import judge
 from campaigns.paper.page import page
 from campaigns.paper.pairs import all_pairs
 from campaigns.paper.sizes import FULL, QUICK, Sizes
 from campaigns.paper.stages import Kept, Progress, Result, Stage, run, whole, write
+from campaigns.paper.verdicts import Verdict
 from campaigns.tuning.compare import LAWS, Say
 from companion.cli.worlds import CLEARANCE, VEHICLE_RADIUS
 from companion.drivers.provenance import revision, version
@@ -22,6 +23,8 @@ PAGE, FIGURES, RESULTS, WORK = "paper.md", "paper", "results.json", "work"
 FLYING = ("planner", "companion", "fakevehicle", "wire")
 """Packages whose sources decide a flight."""
 PERCENTILE = 95
+EACH_S = 0.16
+"""One flight of a tuning, roughly [s of CPU]."""
 PAIRED = ("length_m", "jerk_integral", "cpu_ms", "tracking_percentile_m")
 
 
@@ -63,12 +66,13 @@ def costs(sizes: Sizes) -> dict[str, tuple[int, float]]:
     each = sizes.searches * sizes.iterations
     judged = len(LAWS) * sizes.unseen
     of_laws, of_optimisers = evaluations(sizes)["laws"], evaluations(sizes)["optimisers"]
+    flights = 2 * (1 + (sizes.step_m > 0.0)) * sizes.train
     return {
         "worlds": (many["worlds"], 0.7),
         "searches": (many["searches"], 6e-5 * each),
         "holds": (many["holds"], 0.4 + 0.03 * sizes.hold_s),
-        "laws": (of_laws, 1.6 + 0.8 * judged / of_laws),
-        "optimisers": (of_optimisers, 1.6),
+        "laws": (of_laws, EACH_S * flights * (1.0 + judged / sizes.train / of_laws)),
+        "optimisers": (of_optimisers, flights * EACH_S),
     }
 
 

@@ -55,6 +55,7 @@ def tuned_before(folder: Path) -> None:
             "budget": 5,
             "population": 5,
             "winds": winds,
+            "unit": "pid",
             "rows": rows,
             "gains": {law: {term: figure() for term in terms} for law in laws},
             "costs": {law: figure() for law in laws},

@@ -14,15 +14,31 @@ from paper_double import Here, Silent, strange_numbers
 from rich.console import Console
 from scipy import stats
 
-from campaigns.paper import claims, equations, functions, page, pairs, printed, stages, worlds
-from campaigns.paper.claims import CLAIMS, Verdict
+from campaigns.paper import (
+    claims,
+    equations,
+    functions,
+    gain_rules,
+    page,
+    pairs,
+    planner_rules,
+    printed,
+    search_rules,
+    stages,
+    verdicts,
+    worlds,
+)
+from campaigns.paper.claims import CLAIMS
 from campaigns.paper.run import costs
 from campaigns.paper.sizes import QUICK
+from campaigns.paper.verdicts import Finding, Verdict, needs
 from companion.cli.paper import HowFar
 from companion.errors import CompanionError
 from planner.search import BENCHMARKS
 
 DOCS = Path("docs")
+TOLD_BY = (page, claims, planner_rules, search_rules, gain_rules, verdicts)
+"""Where sentences of the page stand."""
 
 
 # ---- every figure of the page is a result ---------------------------------------------------------------------------
@@ -42,7 +58,9 @@ def test_the_committed_page_is_what_its_results_say_and_so_are_the_verdicts():
     assert claims.judge(results) == results["claims"]
 
 
-@pytest.mark.parametrize("module", [page, claims], ids=lambda module: module.__name__)
+@pytest.mark.parametrize(
+    "module", [page, claims, planner_rules, search_rules, gain_rules, verdicts], ids=lambda module: module.__name__
+)
 def test_no_sentence_has_a_figure_of_its_own(module):
     tree = ast.parse(Path(module.__file__).read_text())
     forms = {id(part) for node in ast.walk(tree) if isinstance(node, ast.FormattedValue) for part in ast.walk(node)}
@@ -59,7 +77,7 @@ def test_no_sentence_has_a_figure_of_its_own(module):
 # ---- rules come out either way --------------------------------------------------------------------------------------
 
 
-def finding(says: str, results: dict | None = None) -> claims.Finding:
+def finding(says: str, results: dict | None = None) -> Finding:
     """What the rule of the claim with these words says."""
     (claim,) = [c for c in CLAIMS if says in c.says]
     return claim.rule(results or {})
@@ -101,7 +119,7 @@ OURS = [20.0, 21.0, 19.5, 20.5]
 
 @pytest.mark.parametrize(("factor", "verdict"), [(1.05, Verdict.REPRODUCED), (1.0, Verdict.NOT), (0.95, Verdict.NOT)])
 def test_haoaroa_is_shortest_only_when_every_rival_is_longer_beyond_chance(factor, verdict):
-    lengths = {m: [x * 1.02 + 0.01 * k for k, x in enumerate(OURS)] for m in claims.RIVALS} | {"haoaroa": OURS}
+    lengths = {m: [x * 1.02 + 0.01 * k for k, x in enumerate(OURS)] for m in planner_rules.RIVALS} | {"haoaroa": OURS}
     lengths["lbsgf"] = [x * factor * (1.0 + 1e-3 * (-1) ** k) for k, x in enumerate(OURS)]
     rows = rows_of(lengths)
     results = {"pairs": pairs.all_pairs(rows, ("length_m",), tuple(lengths))}
@@ -131,9 +149,95 @@ def test_the_shortest_is_counted_among_the_proved():
     assert worlds.shortest(rows)["haoaroa"] == 4
 
 
+@dataclass(frozen=True)
+class Change:
+    """Rows of a list in the results with these values (of a pair: any of them) get others."""
+
+    says: str
+    rows: str
+    where: dict[str, object]
+    good: dict[str, object]
+    bad: dict[str, object]
+
+
+PARENTS = ("AOA canonical", "ROA canonical", "AOA literal", "ROA literal")
+CHANGES = (
+    Change("round the L and the H", "planners", {}, {"certified": 3, "worlds": 3}, {"certified": 2, "worlds": 3}),
+    Change(
+        "Omega worlds safely",
+        "planners",
+        {"method": "haoaroa"},
+        {"least_clearance_m": 0.1},
+        {"least_clearance_m": -0.1},
+    ),
+    Change(
+        "Omega worlds safely",
+        "planners",
+        {"method": "haoaroa"},
+        {"flown_ok": 3, "worlds": 3},
+        {"flown_ok": 2, "worlds": 3},
+    ),
+    Change("turn sharply", "planners", {"method": "astar"}, {"curvature_max": None}, {"curvature_max": 2.0}),
+    Change("turn sharply", "planners", {"method": "haoaroa"}, {"curvature_max": 0.3}, {"curvature_max": None}),
+    Change("real-time use", "planners", {"method": "haoaroa"}, {"cpu_ms": 20.1}, {"cpu_ms": 19.9}),
+    Change("less computing time", "pairs", {"column": "cpu_ms", "rival": "haoaroa"}, {"low": 1.1}, {"low": 0.9}),
+    Change("steadiest", "pairs", {"method": "haoaroa"}, {"low": 1.1}, {"low": 0.9}),
+    Change("in every run", "searches", {"contender": "HAOAROA"}, {"exact": 5, "runs": 5}, {"exact": 4, "runs": 5}),
+    Change("on every function", "searches", {"contender": "HAOAROA"}, {"mean": -1.0}, {"mean": 1e9}),
+    Change("never end", "searches", {"contender": PARENTS}, {"best": 1e-300}, {"best": 0.0}),
+    Change(
+        "five landscapes",
+        "searches",
+        {"contender": "HAOAROA"},
+        {"at_minimum": 5, "runs": 5},
+        {"at_minimum": 4, "runs": 5},
+    ),
+    Change(
+        "escape local",
+        "searches",
+        {"contender": "HAOAROA literal"},
+        {"reached": 5, "runs": 5},
+        {"reached": 4, "runs": 5},
+    ),
+    Change("steady-state", "holds", {"gains": "paper"}, {"offset_m": 0.0}, {"offset_m": 1.0}),
+    Change(
+        "traditional laws",
+        "laws",
+        {"law": ("PID", "FOPID", "TID")},
+        {"change_percent": -20.0, "change_percent_half": 9.0},
+        {"change_percent": -20.0, "change_percent_half": 21.0},
+    ),
+    Change("best gains", "optimisers", {"optimiser": "haoaroa"}, {"cost": 0.1}, {"cost": 2.0}),
+)
+
+
+@pytest.mark.parametrize("change", CHANGES, ids=lambda change: f"{change.says}, {', '.join(change.bad)}")
+def test_a_claim_is_reproduced_only_by_results_that_bear_it_out(change):
+    for values, verdict in ((change.good, Verdict.REPRODUCED), (change.bad, Verdict.NOT)):
+        results = json.loads((DOCS / "paper" / "results.json").read_text())
+        rows = results[change.rows] if change.rows not in ("laws", "optimisers") else results[change.rows]["rows"]
+        mine = [
+            row
+            for row in rows
+            if all(
+                row[key] in (wanted if isinstance(wanted, tuple) else (wanted,)) for key, wanted in change.where.items()
+            )
+        ]
+        assert mine
+        for row in mine:
+            row |= values
+        assert finding(change.says, results).verdict is verdict
+
+
+def test_a_star_is_usually_the_shortest_when_it_is_in_more_than_half_of_the_worlds():
+    for astar, verdict in ((6, Verdict.REPRODUCED), (5, Verdict.NOT)):
+        results = {"shortest": {"haoaroa": 10 - astar, "astar": astar, "jps": 0}}
+        assert finding("usually has the shortest", results).verdict is verdict
+
+
 def test_what_is_told_cannot_be_called_not_testable():
     with pytest.raises(ValueError, match="something to test"):
-        claims.needs("the tuned gains")
+        needs("the tuned gains")
 
 
 # ---- tables ---------------------------------------------------------------------------------------------------------
