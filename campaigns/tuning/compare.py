@@ -214,12 +214,7 @@ def _find(spec: Spec, who: str, method: str, executor: Executor, folder: Path | 
 
 def about(spec: Spec, method: str) -> dict[str, object]:
     """What a folder of evaluations belongs to."""
-    told = spec.model_dump(mode="json", exclude={"name", "test"})
-    return {
-        "digest": spec.digest(),
-        "method": method,
-        **{k: told[k] for k in ("unit", "weights", "bounds", "start", "search")},
-    }
+    return {"method": method, **spec.model_dump(mode="json", exclude={"name", "test"})}
 
 
 def _each_seed(flights: Sequence[FlightFigures], wind: str, course: str, what: str) -> FloatArray:

@@ -1,9 +1,10 @@
 """The folder of a tuning: every evaluation on disk as soon as it is known, so that nothing is flown twice.
 
-    tune.json           what is tuned: digest of the specification, method, budget, population, seed
+    tune.json           what is tuned: the specification and the method
     evaluations.jsonl   a line for each candidate: its key, parameters and parts
 
-A search is deterministic, so it is continued by running it again: what has been flown is read instead. A line is
+A search is deterministic, so it is continued by running it again: what has been flown is read instead, as long as the
+sources that fly are the same. A line is
 written whole and brought to the disk; one cut short, by a kill or a full disk, is taken away at the next start.
 """
 
@@ -112,9 +113,7 @@ def _same(header: Path, about: Mapping[str, Any]) -> None:
     there = there if isinstance(there, dict) else {}
     for name, value in about.items():
         if there.get(name) != value:
-            raise CompanionError(
-                f"{header}: found {name} {there.get(name)!r}, expected {value!r}: another tuning's folder"
-            )
+            raise CompanionError(f"{header}: found other {name} than this tuning's, expected a folder of its own")
 
 
 def write_whole(path: Path, text: str) -> None:

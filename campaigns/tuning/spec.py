@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
+from campaigns.executors.versions import versions
 from campaigns.tuning.courses import Course, Eight, Hover, Step, Wind
 from companion.errors import ConfigError
 from companion.yamlfile import line_of, read_yaml, shown
@@ -241,8 +242,12 @@ class Spec(_Model):
         return self if self.unit is None else self.model_copy(update={"base": self.unit})
 
     def digest(self) -> str:
-        """Of all that the parts of a cost depend on: the same digest and parameters, the same parts."""
+        """Of all that the parts of a cost depend on: the same digest and parameters, the same parts.
+
+        The airframe counts by what its file says now, and the sources and versions that fly count, too.
+        """
         told = self.model_dump(mode="json", exclude={"name", "search", "test", "unit", "weights", "bounds", "start"})
+        told |= {"airframe": load_airframe(self.airframe).model_dump(mode="json"), "versions": versions()}
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:16]
 
 

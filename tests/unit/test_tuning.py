@@ -109,6 +109,15 @@ class TestTheFile:
         found = spec(train=50, test=1000)
         assert not set(found.seeds(unseen=False)) & set(found.seeds(unseen=True))
 
+    def test_what_a_flight_depends_on_is_in_the_digest_and_what_it_does_not_is_not(self, monkeypatch):
+        one = spec()
+        assert spec(name="other", test=9, weights={"margin": 3.0}).digest() == one.digest()
+        for more in ({"seed": 2}, {"train": 2}, {"airframe": "iris"}, {"base": "pid"}, {"set": {"MPC_Z_P": 1.0}}):
+            assert spec(**more).digest() != one.digest()
+        before = one.digest()
+        monkeypatch.setattr("campaigns.tuning.spec.versions", lambda: {"source": "edited"})
+        assert one.digest() != before
+
     def test_a_candidate_is_in_its_ranges_and_the_start_is_the_base(self):
         found = spec(base="pid", parameters={"MC_ROLL_P": {"low": 2, "high": 8, "also": ["MC_PITCH_P"]}, **KP})
         assert found.values(np.array([-1.0, 0.5])) == {
@@ -230,9 +239,9 @@ class TestTheFolder:
     def test_another_tunings_folder_is_refused_and_one_in_use_wants_resume(self, tmp_path):
         small = spec()
         Journal(tmp_path, about(small, "de"), resume=False).put("k", {}, Parts(1.0, 1.0, 1.0, 1.0))
-        with pytest.raises(CompanionError, match="another tuning's folder"):
+        with pytest.raises(CompanionError, match="expected a folder of its own"):
             Journal(tmp_path, about(small, "cma"), resume=True)
-        with pytest.raises(CompanionError, match="another tuning's folder"):
+        with pytest.raises(CompanionError, match="found other train than"):
             Journal(tmp_path, about(spec(train=2), "de"), resume=True)
         with pytest.raises(CompanionError, match="--resume goes on"):
             Journal(tmp_path, about(small, "de"), resume=False)
