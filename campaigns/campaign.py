@@ -79,8 +79,8 @@ def fly_campaign(
             found = store.read(run.run_id)
             progress.before += found is not None
             progress.failed += found is not None and not found.row["ok"]
-    store.discard_damaged()
-    left = [run for run in runs if run.run_id not in done or run.run_id in store.unreadable]
+    done -= store.discard_damaged()
+    left = [run for run in runs if run.run_id not in done]
     tell(progress)
     for outcome in executor.map(fly_run, left, timeout_s=sweep.timeout_s, retries=RETRIES):
         if outcome.result is None:
@@ -117,7 +117,7 @@ def record_flights(
     left = [run for run in runs if run.run_id in wanted and not store.recording(run.run_id)]
     progress.recordings = len(left)
     tell(progress)
-    items = ((run, store.begin_recording(run.run_id)) for run in left)
+    items = ((run, store.place_for_recording(run.run_id)) for run in left)
     for outcome in executor.map(record_run, items, timeout_s=sweep.timeout_s, retries=RETRIES):
         run, again = outcome.item[0], outcome.result
         stored = store.read(run.run_id)

@@ -6,6 +6,7 @@ apart. Nothing is written but the recording that is asked for.
 
 import math
 import platform
+import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,14 +53,22 @@ def fly_run(run: Run) -> Flown:
     return _flown(run, None)
 
 
-def record_run(item: tuple[Run, Path]) -> Flown:
-    """The same flight, recorded to a file.
+def fly_recorded(run: Run, file: Path) -> Flown:
+    """The same flight, recorded.
 
     Raises
     ------
     OSError, MemoryError, LogsError : of the machine, such as a full disk.
     """
-    return _flown(*item)
+    return _flown(run, file)
+
+
+def record_run(item: tuple[Run, Path]) -> Flown:
+    """The same for an executor; the file is alone in its folder, whatever one who died over it has left there."""
+    run, file = item
+    shutil.rmtree(file.parent, ignore_errors=True)
+    file.parent.mkdir(parents=True)
+    return fly_recorded(run, file)
 
 
 def row_of(run: Run, result: FlightResult) -> Row:

@@ -125,36 +125,34 @@ class Store:
             finally:
                 shutil.rmtree(partial, ignore_errors=True)
 
-    def discard_damaged(self) -> None:
-        """Put away the results that were found damaged, so that their runs are flown again."""
-        for run_id in self.unreadable:
-            with self.writing():
-                shutil.rmtree(self.runs / run_id)
-
-    def begin_recording(self, run_id: str) -> Path:
-        """A file to record a run to.
+    def discard_damaged(self) -> set[str]:
+        """Put away the results that were found damaged, so that their runs are flown again: their ids.
 
         Raises
         ------
-        CampaignError : its folder cannot be made.
+        CampaignError : they cannot be.
         """
+        damaged = set(self.unreadable)
+        self.unreadable.clear()
         with self.writing():
-            partial = self._partial(run_id)
-            partial.mkdir(parents=True, exist_ok=True)
-            return partial / RECORDING
+            for run_id in damaged:
+                shutil.rmtree(self.runs / run_id)
+        return damaged
+
+    def place_for_recording(self, run_id: str) -> Path:
+        """A file to record a run to, in a folder of its own, which is to be made."""
+        return self._partial(run_id) / RECORDING
 
     def end_recording(self, run_id: str, keep: bool) -> None:
         """Make what was recorded the run's recording, or drop it.
 
         Raises
         ------
-        CampaignError : it is not there, in one piece, or cannot be moved.
+        CampaignError : it is not there, or cannot be moved.
         """
         partial = self._partial(run_id)
         try:
             with self.writing():
-                if keep and sorted(os.listdir(partial)) != [RECORDING]:
-                    raise OSError(f"the recording of {run_id} is not whole")
                 if keep and not self.recording(run_id):
                     os.replace(partial / RECORDING, self.runs / run_id / RECORDING)
         finally:

@@ -88,10 +88,8 @@ class _Worker:
         """
         try:
             said = self.pipe.recv()
-        except OSError as error:
+        except (OSError, EOFError) as error:
             raise EOFError from error
-        except EOFError:
-            raise
         except Exception as error:  # a result that cannot be unpickled here
             return Answer(error=told(error))
         if said == BEGUN:
@@ -180,7 +178,7 @@ class Processes:
         item = worker.item
         try:
             done = worker.hear() if worker.pipe.poll() else None
-        except EOFError:
+        except (OSError, EOFError):
             what = f"its process {self._end(worker)}"
             return Outcome(item, infrastructure=what, attempts=worker.attempts), True
         if done is not None:

@@ -25,7 +25,7 @@ from campaigns.campaign import (
 )
 from campaigns.errors import CampaignError, CampaignInterrupted, SchedulerError
 from campaigns.executors import Executor, local
-from campaigns.flying import Row, fly_run, record_run
+from campaigns.flying import Row, fly_recorded, fly_run
 from campaigns.runs import Run
 from campaigns.store import Store, open_store
 from campaigns.sweep import Sweep, load_sweep
@@ -56,7 +56,7 @@ def fly_sweep(
         return 2
     with show.working(show.console(), f"reading {path}"):
         sweep = load_sweep(path)
-    folder = path.with_name(f"{path.stem}-campaign") if out is None else out
+    folder = Path(f"{path.stem}-campaign") if out is None else out
     check_parquet(folder)
     started = time.monotonic()
     with ExitStack() as stack:
@@ -84,7 +84,10 @@ def _fly(sweep: Sweep, store: Store, runs: Sequence[Run], there: Executor, here:
     except SchedulerError as error:
         done = f"{len(store.done())} of {len(store.run_ids)} runs are done"
         raise CampaignError(f"{error}; {done}: --resume goes on") from error
+    except OSError as error:  # no process can be started, or the like
+        raise CampaignError(f"{store.folder}: {error.strerror or error}; --resume goes on") from error
     finally:
+        here.close()  # nobody writes any more
         store.clear_partial()
         write_campaign_tables(sweep, store, progress.lost)
     return progress
@@ -103,7 +106,7 @@ def rerun_run(folder: Path, run_id: str, record: Path | None, as_json: bool) -> 
     if run.run_id != run_id or stored is None:
         raise CampaignError(f"{folder}: run {run_id} is of another version, or was changed: it is {run.run_id} now")
     with show.working(show.console(), f"flying {run.mission} again, {run.autopilot}, seed {run.seed}"):
-        again = fly_run(run) if record is None else record_run((run, record))
+        again = fly_run(run) if record is None else fly_recorded(run, record)
     differ = differences(stored.row, again.row)
     if as_json:
         told = {name: {"stored": stored.row.get(name), "again": again.row[name]} for name in differ}

@@ -155,6 +155,16 @@ def test_what_is_wrong_with_us_is_a_result_and_with_the_machine_none(folder: Pat
         record_run((run, Path("/proc/none/flight.mcap")))
 
 
+def test_a_recording_is_made_whatever_somebody_who_died_over_it_has_left(folder: Path, tmp_path: Path) -> None:
+    run, file = load_sweep(folder / "sweep.yaml").runs[0], tmp_path / "partial" / "flight.mcap"
+    run = replace(run, limit_s=2.0)
+    file.parent.mkdir()
+    file.write_bytes(b"half a recording")
+    assert record_run((run, file)).row == fly_run(run).row
+    assert file.read_bytes().startswith(b"\x89MCAP0")
+    assert os.listdir(file.parent) == ["flight.mcap"]
+
+
 def test_a_run_flown_again_is_the_very_same(folder: Path, table: bytes) -> None:
     store = Store(folder / "alone")
     stored = next(store.stored())

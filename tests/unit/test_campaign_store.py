@@ -67,6 +67,7 @@ def made_up(run: Run) -> Flown:
 
 
 def made_up_recorded(item: tuple[Run, Path]) -> Flown:
+    item[1].parent.mkdir()
     item[1].write_bytes(b"recording")
     return made_up(item[0])
 
@@ -123,7 +124,7 @@ def test_the_recordings_of_several_vehicles_are_a_folder_and_kept_as_such(
     sweep: Sweep, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def several(item: tuple[Run, Path]) -> Flown:
-        item[1].mkdir()
+        item[1].mkdir(parents=True)
         (item[1] / "1.mcap").write_bytes(b"recording")
         return made_up(item[0])
 
@@ -290,3 +291,21 @@ def test_a_flight_that_differs_when_it_is_recorded_is_told_and_its_recording_is_
     progress = fly(sweep, folder, Here())
     assert set(progress.differing) == sweep.sampled | {sweep.runs[3].run_id}
     assert not list(folder.rglob("*.mcap"))
+
+
+def test_a_recording_that_cannot_be_made_is_told_and_made_the_next_time(
+    sweep: Sweep, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(item: tuple[Run, Path]) -> Flown:
+        item[1].parent.mkdir()
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(campaign, "record_run", full)
+        progress = fly(sweep, folder, Here())
+    assert len(progress.unrecorded) == progress.recordings == len(sweep.sampled | {sweep.runs[3].run_id})
+    assert "No space left on device" in progress.unrecorded[0]
+    assert all(row["status"] == "flown" for row in pq.read_table(folder / "runs.parquet").to_pylist())
+    assert not list((folder / "runs").glob(".*"))
+    again = Here()
+    assert fly(sweep, folder, again).recorded == len(again.begun) == progress.recordings
