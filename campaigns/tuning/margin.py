@@ -49,16 +49,6 @@ class Margin:
     ms: float
     frequency: float
 
-    @property
-    def gain_db(self) -> float:
-        """Gain that may at least be added [dB]; 0 for an unstable loop."""
-        return 0.0 if self.ms >= UNSTABLE else 20.0 * math.log10(self.ms / (self.ms - 1.0))
-
-    @property
-    def phase_deg(self) -> float:
-        """Phase that may at least be lost [deg]; 0 for an unstable loop."""
-        return 0.0 if self.ms >= UNSTABLE else math.degrees(2.0 * math.asin(0.5 / self.ms))
-
 
 @dataclass(frozen=True, slots=True)
 class Margins:

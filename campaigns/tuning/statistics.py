@@ -17,15 +17,10 @@ class Interval(NamedTuple):
     mean: float
     half: float
 
-    def __str__(self) -> str:
-        return f"{self.mean:.3f}{self._half(f'{self.half:.3f}')}"
-
-    def percent(self) -> str:
-        """A relative change, for people."""
-        return f"{100.0 * self.mean:+.1f}{self._half(f'{100.0 * self.half:.1f}')} %"
-
-    def _half(self, told: str) -> str:
-        return f" ± {told}" if math.isfinite(self.half) else ""
+    def told(self, unit: float, digits: int) -> str:
+        """For people, in a unit of which `unit` make one."""
+        half = f" ± {unit * self.half:.{digits}f}" if math.isfinite(self.half) else ""
+        return f"{unit * self.mean:.{digits}f}{half}"
 
 
 def mean(values: FloatArray) -> Interval:

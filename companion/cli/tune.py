@@ -79,19 +79,21 @@ def _print(spec: Spec, found: Found, rows: list[report.Row], folder: Path) -> No
     cost.add_row("cost", f"{found.base_cost:.3f}", f"[bold]{found.cost:.3f}[/bold]")
     console.print(cost)
     for unseen, count in ((False, spec.train), (True, spec.test)):
-        what = f"{count} unseen seeds" if unseen else f"{count} seeds trained on"
-        title = f"RMS over ground (m), {what}, mean ± 95 %"
-        flights = Table("flight", "before", "after", "change", "loops", "estimate", "largest", title=title, box=SIMPLE)
-        flights.title_justify = "left"
+        what = f"{'unseen seeds' if unseen else 'seeds trained on'}: {count}"
+        title = f"RMS over ground in mm, {what}, mean ± 95 %"
+        flights = Table(title=title, title_justify="left", box=SIMPLE, pad_edge=False)
+        flights.add_column("flight", min_width=12)
+        for name in ("before", "after", "change", "loops", "estimate", "largest"):
+            flights.add_column(name, no_wrap=True)
         for row in (row for row in rows if row.unseen == unseen):
             flights.add_row(
                 f"{row.course}, {row.wind}",
-                str(row.before),
-                str(row.after),
-                row.change.percent(),
-                f"{row.control[0]:.3f} → {row.control[1]:.3f}",
-                f"{row.estimator:.3f}",
-                f"{row.largest:.2f}" if not row.lost else f"[red]{row.lost} lost[/red]",
+                row.before.told(1000.0, 0),
+                row.after.told(1000.0, 0),
+                f"{row.change.told(100.0, 1)} %",
+                f"{1000.0 * row.control[0]:.0f} → {1000.0 * row.control[1]:.0f}",
+                f"{1000.0 * row.estimator:.0f}",
+                f"{1000.0 * row.largest:.0f}" if not row.lost else f"[red]{row.lost} lost[/red]",
             )
         console.print(flights)
     console.print("loops: estimate to setpoint; estimate: truth to estimate, which no gain mends", style="dim")
