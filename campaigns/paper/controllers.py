@@ -13,6 +13,7 @@ import numpy as np
 
 from campaigns.executors import Executor
 from campaigns.tuning.compare import CONDITIONS, LAWS, UNIT, Say, compare_controllers, compare_optimisers, law_spec
+from campaigns.tuning.cost import FlightFigures
 from campaigns.tuning.optimisers import METHODS
 from campaigns.tuning.statistics import Interval
 from fakevehicle.control.gains import PARAMETERS, PRESETS
@@ -92,7 +93,7 @@ def laws(item: Laws, executor: Executor, folder: Path, say: Say) -> dict[str, An
     for name, law in compared.laws.items():
         for wind in compared.winds:
             row = {"law": name, "wind": wind, "seeds": item.unseen, "largest_m": _finite(law.largest(wind))}
-            row |= _told("rms_m", compared.rms(name, wind))
+            row |= _told("rms_m", compared.rms(name, wind)) | _shares(law.flights, wind)
             row |= {} if name == TUNED else _told("change_percent", compared.change(TUNED, wind, name), 100.0)
             rows.append(row)
     defaults = {parameter.name: parameter.default for parameter in PARAMETERS}
@@ -135,6 +136,16 @@ def optimisers(item: Optimisers, executor: Executor, folder: Path, say: Say) -> 
         for name, trace in found.traces.items()
     ]
     return {"budget": item.budget, "population": population(item.budget), "rows": rows}
+
+
+def _shares(flights: list[FlightFigures], wind: str) -> dict[str, float | None]:
+    """RMS over the eights in a wind of what the loops leave, and of what the estimator errs by."""
+    mine = [f for f in flights if f.wind == wind and f.course.startswith("eight") and not f.lost]
+    control, estimator = (np.array([getattr(f, part) for f in mine]) for part in ("control", "estimator"))
+    return {
+        "loops_m": float(np.sqrt((control**2).mean())) if mine else None,
+        "estimator_m": float(np.sqrt((estimator**2).mean())) if mine else None,
+    }
 
 
 def _told(name: str, value: Interval, unit: float = 1.0) -> dict[str, float | None]:

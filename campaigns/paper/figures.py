@@ -11,9 +11,9 @@ import numpy as np
 from campaigns.paper import printed, worlds
 from campaigns.paper.gain_rules import TUNERS
 from campaigns.paper.search import DIMENSION, benchmark
-from campaigns.paper.stages import unwritable
+from campaigns.paper.stages import file_error
 from companion.errors import CompanionError
-from planner.families import make
+from planner.families import FLIGHT_LEVEL, make
 from planner.plot import draw_map, view_of
 from planner.plot_methods import COLOURS
 from planner.worlds import Box, Cylinder
@@ -30,8 +30,6 @@ GRID = 161
 BUSY = 1e-3
 """Above a landscape's minimum, what its logarithm begins with."""
 RED, GREEN = "#c0392b", "#148f77"
-CLEARANCE = 0.75
-"""From obstacles to the middle of the vehicle, as planned: hull and clearance [m]; drawn as a halo."""
 
 
 def draw(results: Results, rows: Mapping[str, Any], folder: Path) -> None:
@@ -55,15 +53,16 @@ def draw(results: Results, rows: Mapping[str, Any], folder: Path) -> None:
         try:
             figure.savefig(folder / f"{name}.png", metadata={"Software": None})
         except OSError as error:
-            raise unwritable(folder / f"{name}.png", error) from error
+            raise file_error(folder / f"{name}.png", error) from error
 
 
 def paths(figure: Figure, results: Results, rows: Mapping[str, Any]) -> None:
     """Fig. 5 A and B: the L and the H from above, every method."""
     view, _, _ = view_of(("x", "y", "z"))
+    halo = results["setup"]["hull"] + results["setup"]["clearance"]
     for axes, family in zip(figure.subplots(1, 2), FROM_ABOVE, strict=True):
         world = make(family, worlds.SHOWN).world
-        draw_map(axes, world, 0.5, 2.0, view, CLEARANCE)
+        draw_map(axes, world, FLIGHT_LEVEL, FLIGHT_LEVEL, view, halo)
         for row in shown(rows, family):
             method, points = row["method"], np.array(row["path"])
             wide = method == "haoaroa"
@@ -214,8 +213,10 @@ def controllers(figure: Figure, results: Results, rows: Mapping[str, Any]) -> No
     left.grid(axis="y", alpha=0.25)
     tuners = results["optimisers"]["rows"]
     for k, row in enumerate(tuners):
-        x = np.arange(1, len(row["trace"]) + 1)
-        right.plot(x, row["trace"], color=COLOURS[k], lw=1.8, label=TUNERS[row["optimiser"]], drawstyle="steps-post")
+        x = np.arange(1, len(row["trace"]) + 1)  # one over the other, the first widest
+        right.plot(
+            x, row["trace"], color=COLOURS[k], lw=5.0 - 0.8 * k, label=TUNERS[row["optimiser"]], drawstyle="steps-post"
+        )
     right.set(xlabel="evaluations", ylabel="lowest cost so far, mean of the runs")
     right.set_title("optimisers on FOPID-TID's gains", loc="left", fontsize=10)
     right.legend(fontsize=8)

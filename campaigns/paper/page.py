@@ -211,7 +211,9 @@ def gains(results: Results, figures: str) -> Iterator[str]:
         f"Each law is tuned with {laws['budget']} evaluations of the same cost, population {laws['population']}, by "
         "HAOAROA, from its own preset, and then flown on seeds that no tuning has seen: a figure of eight, RMS over "
         "ground of truth less setpoint, mean and its interval. *Against it* is FOPID-TID's RMS relative to that "
-        "law's, seed by seed."
+        "law's, seed by seed; *estimator* is the RMS of truth less estimate, *loops* that of estimate less setpoint, "
+        "and "
+        f"*cost* that of the tuning, in units of the preset `{laws['unit']}`."
     )
     yield ""
     rows = (
@@ -220,13 +222,15 @@ def gains(results: Results, figures: str) -> Iterator[str]:
             row["wind"],
             f"{row['seeds']}",
             f"{number(row['rms_m'], '.4f')} ± {number(row['rms_m_half'], '.4f')}",
+            number(row["estimator_m"], ".4f"),
+            number(row["loops_m"], ".4f"),
             number(row["largest_m"], ".2f"),
             "" if "change_percent" not in row else between(row["change_percent"], row["change_percent_half"], ".1f"),
             f"{laws['costs'][row['law']]:.3f}",
         )
         for row in laws["rows"]
     )
-    heads = ("law", "wind", "seeds", "RMS m", "largest m", "FOPID-TID against it %", "cost in tuning")
+    heads = ("law", "wind", "seeds", "RMS m", "estimator m", "loops m", "largest m", "FOPID-TID against it %", "cost")
     yield from table(heads, rows)
     yield ""
     yield from picture(figures, "controllers", "RMS of each law, and the optimisers' lowest costs")

@@ -15,7 +15,7 @@ from campaigns.paper.pairs import all_pairs
 from campaigns.paper.sizes import FULL, QUICK, Sizes
 from campaigns.paper.stages import Kept, Progress, Result, Stage, run, whole, write
 from campaigns.paper.verdicts import Verdict
-from campaigns.tuning.compare import LAWS, Say
+from campaigns.tuning.compare import LAWS
 from companion.cli.worlds import CLEARANCE, VEHICLE_RADIUS
 from companion.drivers.provenance import revision, version
 
@@ -145,5 +145,8 @@ def _with(
     work: Callable[..., Result], executor: Executor, folder: Path, done: Callable[[], None]
 ) -> Callable[[Any], Result]:
     """Of a tuning's work what is left to be given is its item."""
-    say: Say = lambda who, count, cost: done()  # noqa: E731
+
+    def say(who: str, count: int, cost: float) -> None:
+        done()
+
     return partial(work, executor=executor, folder=folder, say=say)

@@ -10,6 +10,7 @@ import importlib.util
 import json
 import os
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import asdict, dataclass, is_dataclass
 from functools import cache
 from pathlib import Path
@@ -78,7 +79,7 @@ class Kept:
         except (FileNotFoundError, ValueError):
             return None
         except OSError as error:
-            raise unwritable(self.file(stage, item), error) from error
+            raise file_error(self.file(stage, item), error) from error
 
     def put(self, stage: Stage, item: Any, result: Result) -> None:
         """Keep one."""
@@ -157,10 +158,11 @@ def write(file: Path, text: str) -> None:
         beside.write_text(text, encoding="utf-8")
         beside.replace(file)
     except OSError as error:
-        beside.unlink(missing_ok=True) if beside.parent.is_dir() else None
-        raise unwritable(file, error) from error
+        with suppress(OSError):
+            beside.unlink()
+        raise file_error(file, error) from error
 
 
-def unwritable(file: Path, error: OSError) -> CompanionError:
-    """What is said when a file cannot be read or written."""
+def file_error(file: Path, error: OSError) -> CompanionError:
+    """What is said of a file that cannot be read or written."""
     return CompanionError(f"{file}: {error.strerror or error}")

@@ -45,6 +45,7 @@ def tuned_before(folder: Path) -> None:
     laws, winds = ("FOPID-TID", "PID", "FOPID", "TID"), ["calm", "8 m/s, gusts 8"]
     rows = [
         {"law": law, "wind": wind, "seeds": 2, "largest_m": figure(), "rms_m": figure(), "rms_m_half": figure()}
+        | {"estimator_m": figure(), "loops_m": figure()}
         | ({} if law == "FOPID-TID" else {"change_percent": -100 * figure(), "change_percent_half": 100 * figure()})
         for law in laws
         for wind in winds

@@ -6,7 +6,9 @@ import json
 import math
 import re
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from scipy import stats
 
 from campaigns.paper import (
     claims,
+    controllers,
     equations,
     functions,
     gain_rules,
@@ -32,6 +35,8 @@ from campaigns.paper.claims import CLAIMS
 from campaigns.paper.run import costs
 from campaigns.paper.sizes import QUICK
 from campaigns.paper.verdicts import Finding, Verdict, needs
+from campaigns.tuning.compare import Controllers, Law
+from campaigns.tuning.cost import FlightFigures
 from companion.cli.paper import HowFar
 from companion.errors import CompanionError
 from planner.search import BENCHMARKS
@@ -309,3 +314,48 @@ def test_progress_is_told_in_shares_of_the_whole_and_in_time_that_is_left():
     assert shares == sorted(shares)
     assert shares[-1] == 100
     assert lines[-1].endswith("about 0 s left")
+
+
+# ---- tunings become rows --------------------------------------------------------------------------------------------
+
+
+def flown(law: int, seed: int, wind: str, course: str) -> FlightFigures:
+    """A flight with figures of its own."""
+    rms = 0.05 + 0.01 * law + 0.002 * seed
+    figures = {"rms": rms, "control": 0.8 * rms, "estimator": 0.6 * rms, "largest": 4.0 * rms}
+    return FlightFigures(course=course, wind=wind, seed=seed, overshoot=0.0, activity=1.0, lost="", **figures)
+
+
+def test_tuned_laws_become_rows_with_their_own_means_and_the_change_against_fopid_tid(monkeypatch, tmp_path):
+    made = {}
+    for k, name in enumerate(("FOPID-TID", "PID")):
+        each = product(range(4), ("calm", "gusts"), ("eight 5 m/s", "step 3 m"))
+        flights = [flown(k, seed, wind, course) for seed, wind, course in each]
+        found = SimpleNamespace(values={"FT_VXY_KP": 7.5 + k}, cost=0.9 - 0.1 * k)
+        made[name] = Law(name, found, flights)
+    monkeypatch.setattr(controllers, "compare_controllers", lambda **told: Controllers(made, ("calm", "gusts")))
+    item = controllers.Laws(controllers.Courses(1.0, 0.0, 1), budget=8, unseen=4)
+    result = controllers.laws(item, Here(), tmp_path, lambda who, count, cost: None)
+    assert [(row["law"], row["wind"]) for row in result["rows"]] == [
+        (law, wind) for law in made for wind in ("calm", "gusts")
+    ]
+    row = result["rows"][3]
+    theirs = np.array([0.06 + 0.002 * seed for seed in range(4)])
+    assert row["rms_m"] == pytest.approx(theirs.mean())
+    assert row["largest_m"] == pytest.approx(4.0 * theirs.max())
+    assert row["loops_m"] == pytest.approx(0.8 * np.sqrt((theirs**2).mean()))
+    assert row["estimator_m"] == pytest.approx(0.6 * np.sqrt((theirs**2).mean()))
+    assert row["change_percent"] == pytest.approx(100.0 * ((theirs - 0.01).mean() / theirs.mean() - 1.0))
+    assert "change_percent" not in result["rows"][0]
+    assert result["gains"]["PID"]["KP"] == 8.5
+    assert result["gains"]["PID"]["LAMBDA"] == 1.0  # of the preset, which was not searched
+
+
+def test_optimisers_become_rows_of_their_lowest_costs(monkeypatch, tmp_path):
+    traces = {"haoaroa": np.array([[1.0, 0.8], [1.0, 0.6]]), "de": np.array([[1.0, 0.9], [0.95, 0.95]])}
+    monkeypatch.setattr(controllers, "compare_optimisers", lambda spec, **told: SimpleNamespace(traces=traces))
+    item = controllers.Optimisers(controllers.Courses(1.0, 0.0, 1), budget=8, seeds=2)
+    rows = controllers.optimisers(item, Here(), tmp_path, lambda who, count, cost: None)["rows"]
+    assert [(row["optimiser"], row["runs"]) for row in rows] == [("haoaroa", 2), ("de", 2)]
+    assert (rows[0]["cost"], rows[0]["least"], rows[0]["greatest"]) == pytest.approx((0.7, 0.6, 0.8))
+    assert rows[1]["trace"] == pytest.approx([0.975, 0.925])
