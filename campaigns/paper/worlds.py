@@ -153,10 +153,10 @@ def _median(values: list[float | None]) -> float | None:
 
 
 def shortest(rows: list[dict[str, Any]]) -> dict[str, int]:
-    """In how many worlds each method has the shortest certified plan; equal ones count for the one told first."""
+    """In how many worlds each method has the shortest certified plan; of equal ones (1e-6 m) the one told first."""
     wins = dict.fromkeys(METHODS, 0)
     for family, seed in {(row["family"], row["seed"]): None for row in rows}:
         here = [r for r in rows if r["family"] == family and r["seed"] == seed and r["certified"]]
         if here:
-            wins[min(here, key=lambda r: float(r["length_m"]))["method"]] += 1
+            wins[min(here, key=lambda r: round(float(r["length_m"]), 6))["method"]] += 1
     return wins
