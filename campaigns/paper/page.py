@@ -131,7 +131,11 @@ def planners(results: Results, figures: str) -> Iterator[str]:
         )
         for row in results["planners"]
     )
-    yield "Flown: tracking error and clearance of the hull, medians; *largest* and *least* are those of all flights."
+    yield (
+        "Flown: tracking error and clearance of the hull, medians; *largest* and *least* are those of all flights. "
+        "*Flown well* is what ended as its mission expects (`companion worlds` writes them): there, without touching "
+        "anything, and within the bounds on error and clearance, which some stops at the corners of a polyline miss."
+    )
     yield ""
     yield from table(heads, flown)
     yield ""
