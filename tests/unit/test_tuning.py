@@ -65,6 +65,13 @@ class TestTheFile:
         path.write_text(text)
         return path
 
+    @pytest.mark.parametrize(
+        "file", sorted(Path("campaigns/examples/tuning").glob("*.yaml")), ids=lambda path: path.stem
+    )
+    def test_the_examples_are_tunings_and_begin_where_their_base_is(self, file):
+        spec = load_spec(file)
+        assert ((spec.start() >= 0.0) & (spec.start() <= 1.0)).all()
+
     def test_the_pages_example_is_one_and_the_page_names_every_key(self, tmp_path):
         page = Path("docs/tuning.md").read_text()
         text = re.search(r"```yaml\n(.*?)```", page, re.S).group(1)
