@@ -113,7 +113,7 @@ def laws(item: Laws, executor: Executor, folder: Path, say: Say) -> dict[str, An
 
 
 def optimisers(item: Optimisers, executor: Executor, folder: Path, say: Say) -> dict[str, Any]:
-    """Run every optimiser: the mean of its lowest costs, their extremes, and the mean trace."""
+    """Run every optimiser: its lowest costs with mean and extremes, the mean trace, and what all of them began with."""
     spec = law_spec(
         TUNED,
         budget=item.budget,
@@ -131,6 +131,8 @@ def optimisers(item: Optimisers, executor: Executor, folder: Path, say: Say) -> 
             "cost": float(trace[:, -1].mean()),
             "least": float(trace[:, -1].min()),
             "greatest": float(trace[:, -1].max()),
+            "begun": float(trace[0, 0]),
+            "costs": [float(v) for v in trace[:, -1]],
             "trace": [round(float(v), 6) for v in np.asarray(trace).mean(axis=0)],
         }
         for name, trace in found.traces.items()

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -44,7 +44,8 @@ def tunings(sizes: Sizes) -> dict[str, Stage]:
     """What is one item and many flights of its own."""
     courses = controllers.Courses(sizes.eight_s, sizes.step_m, sizes.train)
     laws = controllers.Laws(courses, sizes.laws_budget, sizes.unseen)
-    optimisers = controllers.Optimisers(courses, sizes.optimisers_budget, sizes.optimiser_seeds)
+    alone = replace(courses, train=1)  # what is compared is the searches: many runs rather than many flights
+    optimisers = controllers.Optimisers(alone, sizes.optimisers_budget, sizes.optimiser_seeds)
     packages = ("fakevehicle", "campaigns.tuning", "planner.search")
     return {
         "laws": Stage("laws", controllers.laws, (laws,), packages),

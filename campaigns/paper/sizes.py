@@ -57,7 +57,7 @@ FULL = Sizes(
     train=2,
     unseen=50,
     optimisers_budget=80,
-    optimiser_seeds=2,
+    optimiser_seeds=5,
 )
 QUICK = Sizes(
     name="quick",
@@ -73,6 +73,6 @@ QUICK = Sizes(
     step_m=3.0,
     train=1,
     unseen=4,
-    optimisers_budget=24,
-    optimiser_seeds=1,
+    optimisers_budget=20,
+    optimiser_seeds=2,
 )
