@@ -12,7 +12,7 @@ from pathlib import Path
 from logs.container import Container
 from logs.errors import RecordingError
 from logs.export import Exported, begun, unfinished
-from logs.parts import PART
+from logs.parts import PART, refuse_beside_parts
 from logs.reader import FILTER, RECOVERY, ChannelInfo, Recording
 from logs.selection import Selection, nothing_left, selected
 
@@ -25,10 +25,11 @@ def filtered(recording: Recording, path: Path, wanted: Selection, force: bool = 
 
     Raises
     ------
-    RecordingError    It cannot be written, or nothing is selected.
+    RecordingError    It cannot be written, parts of another recording of its name are there, or nothing is selected.
     """
     if path.exists() and any(path.samefile(part) for part in recording.paths):
         raise RecordingError(path, "is the recording itself")
+    refuse_beside_parts(path)
     done = begun(recording, path)
     with unfinished(path, force) as temporary, open(temporary, "xb", buffering=0) as file:
         container = Container(file)

@@ -78,7 +78,7 @@ class ToldParameters:
                 system, component, name, value, kind = line.split("\t")
                 key = int(system), int(component), name
                 if key in self._values or len(self._raw) + len(self._values) < MOST:
-                    self._values[key] = (int if int(kind) in _INTEGERS else float)(value), int(kind)
+                    self._values[key] = _exact(float(value), int(kind)), int(kind)
             except ValueError:  # a comment
                 continue
 
@@ -98,13 +98,18 @@ class ToldParameters:
         unpack = _INTEGERS.get(kind) if system in self._bytewise else None
         if unpack is not None:
             return int(struct.unpack(unpack, value)[0])
-        return shortest(_FLOAT.unpack(value)[0])
+        return _exact(shortest(_FLOAT.unpack(value)[0]), kind)
+
+
+def _exact(value: float, kind: int) -> float:
+    """An integer as one, however it was sent or written; `kind`: its MAV_PARAM_TYPE."""
+    return int(value) if kind in _INTEGERS and value.is_integer() else value
 
 
 def params_file(values: Mapping[Key, tuple[float, int]]) -> Attachment:
     """Values with their MAV_PARAM_TYPE as a file to be attached."""
     lines = (
-        f"{system}\t{component}\t{name}\t{value}\t{kind}\n"
+        f"{system}\t{component}\t{name}\t{_exact(float(value), kind)}\t{kind}\n"
         for (system, component, name), (value, kind) in sorted(values.items())
     )
     return Attachment(ATTACHMENT, "text/plain", (_HEAD + "".join(lines)).encode())

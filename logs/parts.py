@@ -97,9 +97,7 @@ class Parts:
         self.container: Container | None = None
         self._file: BinaryIO | None = None
         self._first, self._metadata, self._attachments = path, metadata, attachments
-        others = later_parts(path)
-        if others:
-            raise RecordingError(path, f"{others[0].name} is there already, a part of another recording of this name")
+        refuse_beside_parts(path)
         try:
             self._open(path, self._part(1, "the flight began", None) if numbered else {})
         except FileExistsError:
@@ -192,6 +190,16 @@ def later_parts(first: Path) -> list[Path]:
     """The parts behind the first that are there, in order."""
     pattern = f"{_literal(first.stem)}.part[0-9][0-9][0-9][0-9]{_literal(first.suffix)}"
     return sorted(first.parent.glob(pattern))
+
+
+def refuse_beside_parts(path: Path) -> None:
+    """Raise `RecordingError` where a file of this name would be read as the first part of another recording."""
+    others = [part.name for part in later_parts(path)]
+    if others:
+        more = f" and {len(others) - 3} more" if len(others) > 3 else ""
+        names = ", ".join(others[:3]) + more
+        verb, what = ("is", "a part") if len(others) == 1 else ("are", "parts")
+        raise RecordingError(path, f"{names} {verb} there already, {what} of another recording of this name")
 
 
 def number_of(first: Path, path: Path) -> int:

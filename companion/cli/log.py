@@ -11,6 +11,7 @@ from rich.table import Table
 from companion.cli import show
 from logs.errors import RecordingError
 from logs.info import RecordingInfo, info
+from logs.parts import later_parts
 from logs.recovery import recover
 
 EARLIEST_NS = 10**18
@@ -30,9 +31,12 @@ def show_info(path: Path, as_json: bool) -> int:
 
 
 def recover_logs(paths: list[Path], as_json: bool) -> int:
-    """Make recordings whole, in place; exit code 0 when nothing was lost, 3 when something was, 1 for one refused."""
+    """Make recordings whole, in place, each with its later parts, of which the last is the one that was not closed.
+
+    Exit code 0 when nothing was lost, 3 when something was, 1 for one refused.
+    """
     out, results, code = Console(), [], 0
-    for path in paths:
+    for path in dict.fromkeys(part for first in paths for part in (first, *later_parts(first))):
         try:
             done = recover(path)
         except RecordingError as error:

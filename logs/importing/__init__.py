@@ -33,11 +33,13 @@ def import_log(source: Path, target: Path, force: bool = False) -> Imported:
 
     Raises
     ------
-    RecordingError    It cannot be read or is no such log, a package is missing, or `target` cannot be written.
+    RecordingError    It cannot be read or is no such log, a package is missing, `target` cannot be written, or parts of
+        another recording of its name are there.
     """
     from logs.importing.dataflash import import_dataflash
     from logs.importing.tlog import import_tlog
     from logs.importing.ulog import import_ulog
+    from logs.parts import refuse_beside_parts
 
     kinds = {".tlog": import_tlog, ".ulg": import_ulog, ".bin": import_dataflash}
     reader = kinds.get(source.suffix.lower())
@@ -46,6 +48,7 @@ def import_log(source: Path, target: Path, force: bool = False) -> Imported:
         raise RecordingError(source, f"found {found}, expected .tlog, .ulg or .BIN")
     if not source.is_file():
         raise RecordingError(source, "no such file")
+    refuse_beside_parts(target)
     # The readers print what they think of a damaged file, byte by byte; what is to be told is in `Imported`. (One of
     # pymavlink's is in C: what it says still comes out on stderr.)
     with open(os.devnull, "w") as nothing, redirect_stdout(nothing), redirect_stderr(nothing):

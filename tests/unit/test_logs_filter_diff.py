@@ -71,6 +71,15 @@ def test_a_recording_is_not_filtered_into_itself(tmp_path: Path) -> None:
     assert recording.complete
 
 
+def test_a_smaller_recording_is_not_put_before_parts_of_another(tmp_path: Path) -> None:
+    recording = flight(tmp_path / "a.mcap")
+    for number in (2, 3):
+        (tmp_path / f"old.part000{number}.mcap").write_bytes(recording.path.read_bytes())
+    with pytest.raises(RecordingError, match=r"old\.part0002\.mcap, old\.part0003\.mcap are there already, parts of"):
+        filtered(recording, tmp_path / "old.mcap", Selection(), force=True)
+    assert not (tmp_path / "old.mcap").exists()
+
+
 def test_a_recording_does_not_differ_from_itself_nor_from_the_same_an_hour_later(tmp_path: Path) -> None:
     one, later = flight(tmp_path / "a.mcap"), flight(tmp_path / "b.mcap", at=3_600_000_000_000)
     found = diff(one, later)

@@ -40,6 +40,14 @@ def test_a_telemetry_log_becomes_a_recording_that_replays_and_goes_back_to_the_b
     assert diff(recording, recording).same
 
 
+def test_an_import_is_not_put_before_parts_of_another_recording(tmp_path: Path) -> None:
+    (tmp_path / "a.tlog").write_bytes(bytes(8))
+    (tmp_path / "a.part0002.mcap").write_bytes(b"older")
+    with pytest.raises(RecordingError, match=r"a\.mcap: a\.part0002\.mcap is there already"):
+        import_log(tmp_path / "a.tlog", tmp_path / "a.mcap", force=True)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.part0002.mcap", "a.tlog"]
+
+
 def test_a_damaged_telemetry_log_gives_every_whole_packet_and_says_what_is_in_none(tmp_path: Path) -> None:
     whole = TLOG.read_bytes()
     entries = [(time, packet) for time, packet in captured()]

@@ -1,6 +1,7 @@
 """The vehicle's parameters in a recording, as a file that others load."""
 
 import math
+import struct
 from pathlib import Path
 
 import pytest
@@ -63,7 +64,7 @@ def test_an_autopilot_that_sends_the_nearest_float_is_not_read_as_px4_and_system
         record(recorder, 0.1, ARDUPILOT, value(b"FRAME_CLASS", 1.0, 2), system=3)
         record(recorder, 0.2, PX4, value(b"SYS_AUTOSTART", FOUR, 6), system=4)
     found = lines(Recording.open(path).attachments["vehicle.params"].data)
-    assert found == ["3\t1\tFRAME_CLASS\t1.0\t2", "4\t1\tSYS_AUTOSTART\t4\t6"]
+    assert found == ["3\t1\tFRAME_CLASS\t1\t2", "4\t1\tSYS_AUTOSTART\t4\t6"]
 
 
 def test_a_recording_of_which_nobody_told_a_parameter_holds_no_file_of_them(tmp_path: Path) -> None:
@@ -82,6 +83,9 @@ def test_the_bundled_vehicles_file_is_read_again_by_the_one_that_loads_ground_st
     known = Vehicle(VehicleConfig(autopilot=autopilot)).told_parameters  # type: ignore[arg-type]
     loaded = load_parameter_file(path, known)
     assert not loaded.passed_over
+    ours = ToldParameters()
+    ours.read(path.read_bytes())
+    assert len(ours.values()) == len(known)
     assert len(loaded.values) == len(known)
     assert all(loaded.values[name] == pytest.approx(flown.told_parameters[name], rel=1e-7) for name in known)
 
@@ -106,7 +110,7 @@ def test_what_was_told_goes_over_what_was_attached(tmp_path: Path) -> None:
     )
     with Recorder(path, metadata={}, attachments=[attached], threaded=False) as recorder:
         record(recorder, 0.1, ARDUPILOT, value(b"A", 2.0, 6))
-    assert lines(Recording.open(path).attachments["vehicle.params"].data) == ["1\t1\tA\t2.0\t6", "1\t1\tB\t0.5\t9"]
+    assert lines(Recording.open(path).attachments["vehicle.params"].data) == ["1\t1\tA\t2\t6", "1\t1\tB\t0.5\t9"]
 
 
 def test_names_that_can_be_none_and_more_than_there_can_be_are_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -122,3 +126,21 @@ def test_names_that_can_be_none_and_more_than_there_can_be_are_passed_over(monke
     told.read(b"1\t1\tQ\t1.0\t9\nrubbish\n1\t1\tP0\tnan\t9\n\xff\xff\t\n")
     assert list(told.values()) == [(1, 1, "P0"), (1, 1, "P1"), (1, 1, "P2")]
     assert not math.isnan(told.values()[1, 1, "P0"])
+
+
+@pytest.mark.parametrize(("autopilot", "packed"), [(m.MAV_AUTOPILOT_PX4, "<i"), (m.MAV_AUTOPILOT_ARDUPILOTMEGA, "<f")])
+def test_a_file_of_what_was_told_is_read_again_as_what_was_told(autopilot: int, packed: str) -> None:
+    told, again = ToldParameters(), ToldParameters()
+    told.heard(0, 1, 1, bytes(5) + bytes((autopilot,)) + bytes(3))
+    for name, value, kind in (("COUNT", struct.pack(packed, -5), 6), ("GAIN", struct.pack("<f", 0.1), 9)):
+        told.told((1, 1, name), value, kind)
+    again.read(told.attachment().data)
+    assert again.values() == told.values() == {(1, 1, "COUNT"): -5, (1, 1, "GAIN"): 0.1}
+    assert again.attachment() == told.attachment()
+    assert "COUNT\t-5\t6" in lines(told.attachment().data)[0]
+
+
+def test_integers_in_a_file_may_be_written_as_floats_and_what_is_none_stays_as_it_is() -> None:
+    told = ToldParameters()
+    told.read(b"1\t1\tA\t5.0\t6\n1\t1\tB\t2147483647\t6\n1\t1\tC\t0.5\t6\n1\t1\tD\tinf\t6\n")
+    assert [str(value) for value in told.values().values()] == ["5", "2147483647", "0.5", "inf"]

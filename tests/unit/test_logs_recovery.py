@@ -453,6 +453,20 @@ def test_the_command_says_by_its_exit_code_what_was_lost(whole: Path, tmp_path: 
     assert (code, [item["ok"] for item in told["recordings"]]) == (1, [False, True])
 
 
+def test_the_command_recovers_the_last_part_by_the_name_of_the_first(whole: Path, tmp_path: Path) -> None:
+    from companion.cli.log import recover_logs
+
+    first, last = tmp_path / "a.mcap", tmp_path / "a.part0002.mcap"
+    first.write_bytes(whole.read_bytes())
+    last.write_bytes(whole.read_bytes()[:90_000])
+    assert recover_logs([first, last], as_json=True) == 3
+    assert strict(last)
+    last.write_bytes(whole.read_bytes()[:90_000])
+    assert recover_logs([first], as_json=True) == 3
+    assert strict(last)
+    assert first.read_bytes() == whole.read_bytes()
+
+
 def test_a_recovered_recording_has_whole_ticks_to_run_again(whole: Path, tmp_path: Path) -> None:
     data, path = whole.read_bytes(), tmp_path / "cut.mcap"
     ends = [end for kind, _, end in records(data) if kind == Opcode.CHUNK]
