@@ -1,9 +1,10 @@
 """What the live page is fed with: one thread writes moments of a flight, any number of pages read at their own pace.
 
-A row is a moment: its time, then `COLUMNS`. The feed keeps the newest `MOST_ROWS`, and of what is older every other
-row again and again, so that a page opened late has the whole flight and memory is bounded. A reader asks for what came
-after what it has seen (`since`); one that was slow gets at most `MOST_AT_ONCE` rows of it, evenly. So there is no queue
-per reader that could fill up, and nobody waits for a reader.
+A row is a moment: its time, then `COLUMNS`. Of more than `MOST_ROWS` the older half loses every other row, again and
+again, so that a page opened late has the whole flight and memory is bounded; the newest half of `MOST_ROWS` at least is
+kept as it came (5 minutes at 20 Hz), and at most three quarters. A reader asks for what came after what it has seen
+(`since`); one that was slow gets at most `MOST_AT_ONCE` rows of it, evenly. So there is no queue per reader that could
+fill up, and nobody waits for a reader.
 
 Orders go the other way: `order` keeps what a page asks for until the flight loop takes it (`take_order`), at most
 `MOST_ORDERS`.

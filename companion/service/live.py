@@ -6,8 +6,9 @@
 Nobody else gets in: the port is the loopback's alone; a Host that is not this address is refused (a name that somebody
 made point here, DNS rebinding), and so is an Origin that is not the page's own (a foreign page in the same browser);
 the token is drawn anew each time and compared in constant time. Every reader has threads of its own and none in the
-flight loop's; a slow one is given less (`feed`), and one that takes nothing is hung up on. Whoever calls without a
-word to say takes one of a few places for a few seconds, never a thread or a descriptor more.
+flight loop's; a slow one is given less (`feed`), and one that takes nothing is hung up on. There are a few places for
+callers; when all are taken, the one that has held its place longest without the token makes room for the next. So lines
+held open in silence cost a bounded number of threads and descriptors, and do not keep the page away.
 """
 
 import contextlib
@@ -23,7 +24,7 @@ from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
 from http import HTTPStatus
-from typing import Any
+from typing import Any, ClassVar
 from urllib.parse import parse_qs, urlsplit
 
 from websockets.datastructures import Headers
@@ -80,13 +81,14 @@ def served_live(port: int, feed: Feed, token: str = "") -> Iterator[str]:
     LinkError : the port is taken.
     """
     door = _Door(feed, token or secrets.token_urlsafe(24))
+    callers = type("Caller", (_Caller,), {"door": door})
     try:
         server = serve(
             door.talk,
             HOST,
             port,
             process_request=door.judge,
-            create_connection=_Caller,
+            create_connection=callers,
             compression=None,  # costs more than the loopback
             server_header=None,
             open_timeout=OPEN_S,
@@ -113,12 +115,37 @@ def _hosts(server: Server) -> tuple[str, str]:
 
 
 class _Caller(ServerConnection):
-    """A connection; not one more than `MOST_CALLERS`, which the server then hangs up on."""
+    """A connection that has a place at the door as long as it is read from.
 
-    def __init__(self, sock: socket.socket, protocol: ServerProtocol, server: Server, **more: Any) -> None:
-        if len(server.handler_threads) > MOST_CALLERS:  # this one's among them
-            raise ConnectionRefusedError
-        super().__init__(sock, protocol, server, **more)
+    Attributes
+    ----------
+    known : whether it has shown the token.
+    leaving : whether it was hung up on.
+    """
+
+    door: ClassVar["_Door"]
+
+    def __init__(self, sock: socket.socket, protocol: ServerProtocol, *server: Server, **more: Any) -> None:
+        self.socket, self.known, self.leaving = sock, False, False
+        self.door.admit(self)
+        try:
+            super().__init__(sock, protocol, *server, **more)  # a server since websockets 17
+        except BaseException:  # no thread to be had
+            self.door.gone(self)
+            raise
+
+    def recv_events(self) -> None:
+        """Read from it until it goes; in a thread of its own."""
+        try:
+            super().recv_events()
+        finally:
+            self.door.gone(self)
+
+    def hang_up(self) -> None:
+        """Whoever reads or writes it finds it closed."""
+        self.leaving = True
+        with contextlib.suppress(OSError):
+            self.socket.shutdown(socket.SHUT_RDWR)
 
 
 class _Door:
@@ -132,8 +159,32 @@ class _Door:
     def __init__(self, feed: Feed, token: str) -> None:
         self.feed, self.token, self.hosts = feed, token, ("", "")
         self._closing = threading.Event()
+        self._callers: dict[_Caller, None] = {}  # the oldest first
         self._readers: set[ServerConnection] = set()
         self._lock = threading.Lock()
+
+    def admit(self, caller: _Caller) -> None:
+        """Give a place to a caller; when all are taken, that of the oldest who has not shown the token.
+
+        Raises
+        ------
+        ConnectionRefusedError : there is none to be had; the server hangs up.
+        """
+        with self._lock:
+            if self._closing.is_set():
+                raise ConnectionRefusedError
+            held = [other for other in self._callers if not other.leaving]
+            if len(held) >= MOST_CALLERS:
+                silent = next((other for other in held if not other.known), None)
+                if silent is None or len(self._callers) >= 2 * MOST_CALLERS:  # those that leave hold threads yet
+                    raise ConnectionRefusedError
+                silent.hang_up()
+            self._callers[caller] = None
+
+    def gone(self, caller: _Caller) -> None:
+        """Its place is free."""
+        with self._lock:
+            self._callers.pop(caller, None)
 
     def judge(self, connection: ServerConnection, request: Request) -> Response | None:
         """What a request is answered with; None: it may talk."""
@@ -148,6 +199,8 @@ class _Door:
             return _said(HTTPStatus.NOT_FOUND, "there is the page at / and nothing else\n")
         if not self._knows(token):
             return _said(HTTPStatus.FORBIDDEN, "the token is missing or wrong: open the address that was printed\n")
+        if isinstance(connection, _Caller):
+            connection.known = True
         if url.path == "/":
             page = live_page(f"/live?token={self.token}", self.token, "live")
             return _said(HTTPStatus.OK, page, "text/html")
@@ -197,6 +250,7 @@ class _Door:
                     said_s = time.monotonic()
                 with self._lock:
                     last = last or connection not in self._readers
+            connection.close(CloseCode.GOING_AWAY)
 
     def _ordered(self, message: str | bytes, answers: deque[Answer]) -> Answer | None:
         """Take an order; the answer where it is refused at once."""
@@ -223,16 +277,14 @@ class _Door:
     def close(self, server: Server) -> None:
         """Say what there is to say, and hang up on everybody, on those that take nothing too."""
         self._closing.set()
-        if self._readers:
-            time.sleep(2 * PERIOD_S)
+        until_s = time.monotonic() + 2 * CLOSE_S
+        while self._readers and time.monotonic() < until_s:  # each is told, and closed, by its own thread
+            time.sleep(PERIOD_S)
+        with self._lock:
+            for caller in self._callers:
+                caller.hang_up()
         ending = threading.Thread(target=server.shutdown, name="live ends", daemon=True)
         ending.start()
-        ending.join(2 * CLOSE_S)
-        with self._lock:
-            stuck = list(self._readers)
-        for connection in stuck:
-            with contextlib.suppress(OSError):
-                connection.socket.shutdown(socket.SHUT_RDWR)
         ending.join(CLOSE_S)
 
 

@@ -262,21 +262,35 @@ def test_many_that_come_at_once_are_no_more_readers_than_one_after_the_other(ser
     assert sorted(told) == [False] * 4 + [True] * 8
 
 
-def test_lines_held_open_without_a_word_take_few_threads_and_the_page_comes_back(served: str, monkeypatch):
+def test_lines_held_open_without_a_word_take_few_threads_and_keep_nobody_out(served: str):
     host, token = parts(served)
     before = threading.active_count()
-    with contextlib.ExitStack() as stack:
+    with contextlib.ExitStack() as stack, reader(served) as early:
         idle = [stack.enter_context(socket.create_connection(host.split(":"))) for _ in range(200)]
-        idle[-1].settimeout(5)
-        assert idle[-1].recv(1) == b""  # hung up on
-        assert threading.active_count() - before <= 3 * live.MOST_CALLERS
+        idle[0].settimeout(live.OPEN_S / 2)
+        assert idle[0].recv(1) == b""  # hung up on for those that came after it
+        assert threading.active_count() - before <= 5 * live.MOST_CALLERS
+        assert get(served, f"/?token={token}").status == 200
+        with reader(served) as late:
+            assert "version" in json.loads(late.recv(timeout=5))
+        early.recv(timeout=5)
     end = time.monotonic() + 5
-    while True:
-        with contextlib.suppress(OSError, http.client.HTTPException):
-            if get(served, f"/?token={token}").status == 200:
-                return
+    while threading.active_count() > before:
         assert time.monotonic() < end
         time.sleep(0.05)
+
+
+def test_what_a_server_of_another_version_has_inside_is_not_needed(feed: Feed, monkeypatch):
+    def older(*arguments, create_connection, **more):
+        def bare(sock, protocol, *server, **how):
+            return create_connection(sock, protocol, *(object() for _ in server), **how)
+
+        return serve(*arguments, create_connection=bare, **more)
+
+    serve = live.serve
+    monkeypatch.setattr(live, "serve", older)
+    with served_live(0, feed) as address:
+        assert get(address, f"/?token={parts(address)[1]}").status == 200
 
 
 def test_a_reader_that_takes_nothing_holds_up_neither_the_writer_nor_the_end(feed: Feed):
@@ -311,6 +325,19 @@ def test_a_long_flight_keeps_its_beginning_its_end_and_no_more_rows_than_that(fe
     assert times[0] == 0.0
     assert times[-1] == pytest.approx((100_000 - 1) / 20)
     assert (np.diff(times) > 0).all()
+
+
+def test_of_a_long_flight_the_newest_five_to_seven_and_a_half_minutes_are_kept_at_20_hz(feed: Feed):
+    whole_s = []
+    for k in range(30_001):
+        feed.sample(row(k / 20))
+        if k > feeds.MOST_ROWS and k % 500 == 0:
+            column = feed.since(Seen())["plots"][0]["series"][0]["t"]
+            times = np.frombuffer(base64.b64decode(column["f32"]), "<f4")
+            coarse = np.flatnonzero(np.diff(times) > 0.075)
+            whole_s.append(times[-1] - times[coarse[-1] + 1])
+    assert 300 - 0.1 <= min(whole_s) < 330
+    assert 420 < max(whole_s) <= 450 + 0.1
 
 
 def test_a_reader_that_was_slow_gets_evenly_less_and_nothing_twice(feed: Feed):
