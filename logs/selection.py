@@ -91,6 +91,12 @@ def nothing_left(recording: Recording, wanted: Selection, what: str = "decoded m
     channels = set(message.channel for message in recording.messages())
     topics = {channel.topic for channel in channels}
     names = {name_of(channel).upper() for channel in channels} - {""}
+    if not any(system is not None for system, _ in map(sender, topics)):  # no packet was decoded: look into them
+        framer = Framer()
+        raw = (message for message in recording.messages() if message.channel.direction is not None)
+        packets = {topic for message in raw for topic in _topics(framer, message)} - topics
+        topics |= packets
+        names |= {topic.rpartition("/")[2] for topic in packets}
     systems = {system for system, _ in map(sender, topics) if system is not None}
     told = []
     for name in wanted.names:

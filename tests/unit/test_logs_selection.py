@@ -1,5 +1,6 @@
 """What of a recording is wanted: by topic, message, sender, link and time."""
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -7,6 +8,7 @@ from logs_traffic import heartbeat, record, record_captured
 
 from logs import Recording, schema
 from logs.errors import RecordingError
+from logs.filter import filtered
 from logs.recorder import Recorder
 from logs.rows import plain, rows, shortest
 from logs.selection import Selection, datagrams, nothing_left, selected
@@ -137,3 +139,20 @@ def test_a_topic_of_decoded_packets_names_the_datagrams_they_came_in(recording: 
 def test_what_leaves_nothing_is_told_with_what_may_be_meant(recording: Recording, wanted: Selection, told: str) -> None:
     with pytest.raises(RecordingError, match=told):
         raise nothing_left(recording, wanted)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "told"),
+    [
+        (Selection(names=("ATTITUDE",), start_s=1e6), r"left of what is asked for$"),
+        (Selection(topics=("/mavlink/1/1/ATTITUDE",), start_s=1e6), r"left of what is asked for$"),
+        (Selection(names=("ATITUDE",)), r"it holds no ATITUDE \(did you mean ATTITUDE\?\)"),
+        (Selection(systems=(7,)), r"nothing is of system 7 \(systems: 1, 255\)"),
+    ],
+)
+def test_of_a_recording_of_datagrams_alone_the_same_is_told(
+    recording: Recording, wanted: Selection, told: str, tmp_path: Path
+) -> None:
+    filtered(recording, tmp_path / "raw.mcap", Selection(topics=("/mavlink/raw/*",)))
+    with pytest.raises(RecordingError, match=told):
+        raise nothing_left(Recording.open(tmp_path / "raw.mcap"), wanted)
