@@ -5,10 +5,12 @@ flight, those that are wanted (flights that failed, in the campaign's order, and
 for it, on this machine, and must give the same row.
 """
 
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from campaigns.executors import Executor
+from campaigns.executors.versions import digest
 from campaigns.flying import Row, fly_run, lost_row, record_run
 from campaigns.runs import Run
 from campaigns.store import Store
@@ -28,7 +30,7 @@ class Progress:
     wanted : runs this command is to fly, those that are done before included.
     before, now : done before it, and by it.
     failed : of both, flights that did not end as expected.
-    lost : rows of runs that nobody could fly.
+    lost : rows of runs that nobody could fly, or whose result is not there in the end.
     recordings, recorded : to be made, and made.
     unrecorded : ids of runs whose recording could not be made, and why.
     differing : ids of runs that did not give the same row again.
@@ -62,7 +64,10 @@ def fly_campaign(
     progress: Progress,
     tell: Callable[[Progress], None],
 ) -> None:
-    """Fly those of `runs` that are not done.
+    """Fly those of `runs` that are not done, and see that each is done then, or told as lost.
+
+    How many results are there of other sources, packages or processors than ours is told in a line on the standard
+    error: the same run may have come out otherwise there.
 
     Parameters
     ----------
@@ -71,16 +76,17 @@ def fly_campaign(
 
     Raises
     ------
-    CampaignError : a result cannot be kept, or the executor's place is gone. What is done is safe.
+    CampaignError : a result cannot be read or kept, or the executor's place is gone. What is done is safe.
     """
     done = store.done()
-    for run in runs:
-        if run.run_id in done:
-            found = store.read(run.run_id)
-            progress.before += found is not None
-            progress.failed += found is not None and not found.row["ok"]
-    done -= store.discard_damaged()
-    left = [run for run in runs if run.run_id not in done]
+    there = {run.run_id: found for run in runs if run.run_id in done and (found := store.read(run.run_id))}
+    store.discard_damaged()
+    progress.before = len(there)
+    progress.failed = sum(not found.row["ok"] for found in there.values())
+    if other := sum(found.versions != digest() for found in there.values()):
+        told = f"{other} of {len(there)} results are of other sources, packages or processors than these"
+        print(f"companion: {store.folder}: {told}: they may not be what these would give", file=sys.stderr)
+    left = [run for run in runs if run.run_id not in there]
     tell(progress)
     for outcome in executor.map(fly_run, left, timeout_s=sweep.timeout_s, retries=RETRIES):
         if outcome.result is None:
@@ -90,6 +96,15 @@ def fly_campaign(
             progress.now += 1
             progress.failed += not outcome.result.row["ok"]
         tell(progress)
+    _miss(store, runs, progress)
+
+
+def _miss(store: Store, runs: Sequence[Run], progress: Progress) -> None:
+    """What is neither done nor lost by now is lost: its result was taken away, damaged, or never came."""
+    lost = {row["run_id"] for row in progress.lost}
+    missing = [run for run in runs if run.run_id not in lost and store.read(run.run_id) is None]
+    progress.lost += [lost_row(run, "its result is not there, or is damaged") for run in missing]
+    progress.now = len(runs) - len(progress.lost) - progress.before
 
 
 def to_record(sweep: Sweep, store: Store) -> list[str]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from campaigns.flying import FLOWN, Row
 from campaigns.store import Store
-from campaigns.table import COLUMNS, NUMBERS, RUNS, WORDS
+from campaigns.table import RUNS, whole
 
 
 def rows_so_far(store: Store) -> list[Row]:
@@ -19,9 +19,6 @@ def rows_so_far(store: Store) -> list[Row]:
         if run_id in done and (row is None or row["status"] != FLOWN):
             found = store.read(run_id)
             row = None if found is None else {**found.row, "recording": store.recording(run_id)}
-            if row is not None and not _whole(row):
-                store.unreadable.append(run_id)
-                row = None
         if row is not None:
             rows.append(row)
     return rows
@@ -35,12 +32,4 @@ def _table(path: Path) -> list[Row]:
         rows: list[Row] = parquet.read_table(path).to_pylist()
     except (ImportError, OSError, ValueError):  # pyarrow's errors are ValueErrors
         return []
-    return [row for row in rows if _whole(row)]
-
-
-def _whole(row: Row) -> bool:
-    """Whether it has every column, each of its kind."""
-    if not row.keys() >= set(COLUMNS) or not isinstance(row["ok"], bool):
-        return False
-    words, numbers = (row[name] for name in WORDS), (row[name] for name in NUMBERS)
-    return all(isinstance(v, str) for v in words) and all(v is None or isinstance(v, float | int) for v in numbers)
+    return [row for row in rows if whole(row)]

@@ -3,12 +3,14 @@
     sweep.yaml       the sweep, as it was given
     campaign.json    name, versions, and the ids of all runs in their order
     missions/        the missions that are flown, each once, by digest
-    runs/ID/         result.json: what was flown, its row, its cost; flight.mcap where a recording is kept
+    runs/ID/         result.json: what was flown, its row, its cost, a digest of the versions that flew it; flight.mcap
+                     where a recording is kept
     runs.parquet, costs.parquet
 
 A run is made in a folder with a name of its own, beside the others, which gets its final name when everything is in it
 and on the disk. So there is no half of a run, whatever happens, and what has its final name is never written again:
-two commands may fly the same run, and the first is kept.
+two commands may fly the same run, and the first is kept. One that is damaged nevertheless loses its name first, and is
+removed then. What the disk does not let us read is not damaged: nothing is removed for it.
 """
 
 import json
@@ -23,10 +25,11 @@ from pathlib import Path
 from typing import Any
 
 from campaigns.errors import CampaignError
-from campaigns.executors.versions import versions
+from campaigns.executors.versions import digest, versions
 from campaigns.flying import Flown, Row
 from campaigns.runs import Run, Squall
 from campaigns.sweep import Sweep
+from campaigns.table import COST_COLUMNS, whole
 from companion.drivers.provenance import revision, version
 from companion.testing.wire import LinkFaults
 
@@ -37,11 +40,12 @@ _PARTIAL = re.compile(r"\.(?P<host>.+)\.(?P<pid>\d+)\.(?P<what>[0-9a-z]+)")
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """A run that is done: what was flown, its row, and its cost."""
+    """A run that is done: what was flown, its row, its cost, and the digest of the versions that flew it."""
 
     run: dict[str, Any]
     row: Row
     cost: dict[str, Any]
+    versions: str
 
 
 class Store:
@@ -72,25 +76,41 @@ class Store:
         return isinstance(begun, dict) and begun.get("source") != versions()["source"]
 
     def done(self) -> set[str]:
-        """Ids of the runs that are done."""
-        with suppress(FileNotFoundError):
+        """Ids of the runs that are done, as far as their names tell.
+
+        Raises
+        ------
+        CampaignError : the folder cannot be read.
+        """
+        try:
             return {name for name in os.listdir(self.runs) if _ID.fullmatch(name)}.intersection(self.run_ids)
-        return set()
+        except FileNotFoundError:
+            return set()
+        except OSError as error:
+            raise _unread(self.runs, error) from error
 
     def read(self, run_id: str) -> Stored | None:
-        """A run that is done; None when it is not, or its result is damaged."""
+        """A run that is done; None when it is not, or its result is damaged, or missing in its folder.
+
+        Raises
+        ------
+        CampaignError : the disk does not let it be read, which says nothing about the result.
+        """
         path = self.runs / run_id / RESULT
         try:
-            told = json.loads(path.read_bytes())
-            return Stored(told["run"], told["row"], told["cost"])
+            return _stored(run_id, json.loads(path.read_bytes()))
         except FileNotFoundError:
-            return None
-        except (OSError, ValueError, KeyError, TypeError):
-            self.unreadable.append(run_id)
-            return None
+            if not path.parent.exists():
+                return None
+        except OSError as error:
+            raise _unread(path, error) from error
+        except (ValueError, KeyError, TypeError):
+            pass
+        self.unreadable.append(run_id)
+        return None
 
     def stored(self) -> Iterator[Stored]:
-        """Every run that is done, in the order of the campaign."""
+        """Every run that is done, in the order of the campaign; raises as `read` does."""
         done = self.done()
         for run_id in self.run_ids:
             if run_id in done and (found := self.read(run_id)) is not None:
@@ -113,7 +133,7 @@ class Store:
         CampaignError : it cannot be written; what is there stays whole.
         """
         cost = {"run_id": run.run_id, "cpu_s": flown.cpu_s, "wall_s": flown.wall_s, "host": flown.host}
-        told = {"run": _told(run), "row": flown.row, "cost": {**cost, "attempts": attempts}}
+        told = {"run": _told(run), "row": flown.row, "cost": {**cost, "attempts": attempts}, "versions": digest()}
         with self.writing():
             self._keep_mission(run)
             partial = self._partial(run.run_id)
@@ -125,19 +145,20 @@ class Store:
             finally:
                 shutil.rmtree(partial, ignore_errors=True)
 
-    def discard_damaged(self) -> set[str]:
-        """Put away the results that were found damaged, so that their runs are flown again: their ids.
+    def discard_damaged(self) -> None:
+        """Remove the results that were found damaged, so that their runs are flown again.
 
         Raises
         ------
         CampaignError : they cannot be.
         """
-        damaged = set(self.unreadable)
-        self.unreadable.clear()
         with self.writing():
-            for run_id in damaged:
-                shutil.rmtree(self.runs / run_id)
-        return damaged
+            for run_id in set(self.unreadable):
+                aside = self._partial(f"damaged{run_id}")  # whoever dies over it leaves no run's name
+                with suppress(FileNotFoundError):  # another command was first
+                    os.rename(self.runs / run_id, aside)
+                shutil.rmtree(aside, ignore_errors=True)
+        self.unreadable.clear()
 
     def place_for_recording(self, run_id: str) -> Path:
         """A file to record a run to, in a folder of its own, which is to be made."""
@@ -284,6 +305,26 @@ def _campaign(folder: Path) -> dict[str, Any]:
             raise CampaignError(f"{path}: {key}: found nothing, expected what a campaign writes")
     found: dict[str, Any] = told
     return found
+
+
+def _unread(path: Path, error: OSError) -> CampaignError:
+    why = os.strerror(error.errno) if error.errno else str(error)
+    return CampaignError(f"{path}: cannot be read: {why}; it stays as it is")
+
+
+def _stored(run_id: str, told: Any) -> Stored:
+    """A result's JSON.
+
+    Raises
+    ------
+    ValueError, KeyError, TypeError : it is not what is written for that run.
+    """
+    row, cost = {**told["row"]}, {**told["cost"]}
+    if not cost.keys() >= COST_COLUMNS.keys():
+        raise ValueError(f"{run_id}: found no whole cost")
+    if not whole({**row, "recording": ""}) or row["run_id"] != run_id:
+        raise ValueError(f"{run_id}: found another run's row, or one that is not whole")
+    return Stored(told["run"], row, cost, str(told.get("versions", "")))
 
 
 def _told(run: Run) -> dict[str, Any]:

@@ -58,6 +58,14 @@ def write_tables(folder: Path, rows: Iterable[Mapping[str, Any]], costs: Iterabl
     _write(arrow, folder / COSTS, costs, {name: arrow.type_for_alias(kind) for name, kind in COST_COLUMNS.items()})
 
 
+def whole(row: Mapping[str, Any]) -> bool:
+    """Whether it has every column, each of its kind."""
+    if not row.keys() >= set(COLUMNS) or not isinstance(row["ok"], bool):
+        return False
+    words, numbers = (row[name] for name in WORDS), (row[name] for name in NUMBERS)
+    return all(isinstance(v, str) for v in words) and all(v is None or isinstance(v, float | int) for v in numbers)
+
+
 def _write(arrow: Any, path: Path, rows: Iterable[Mapping[str, Any]], types: Mapping[str, Any]) -> None:
     from pyarrow import parquet
 

@@ -144,12 +144,16 @@ class Cluster:
         return int(there["n_workers"])
 
     def _next(self, ended: "SimpleQueue[Future[Any]]") -> "Future[Any]":
-        """The next that ended. While none does, make sure that there is somebody to wait for."""
+        """The next that ended."""
+        return self._waited(lambda: ended.get(timeout=QUIET_S), Empty)
+
+    def _waited(self, get: Callable[[], R], nothing: type[Exception]) -> R:
+        """What it gets. While that is `nothing`, make sure that there is somebody to wait for."""
         alone_since: float | None = None
         while True:
             try:
-                return ended.get(timeout=QUIET_S)
-            except Empty:
+                return get()
+            except nothing:
                 if self._look():
                     alone_since = None
                 elif alone_since is None:
@@ -161,6 +165,8 @@ class Cluster:
         """What came of an item that was begun so often before, and whether it was the loss of its workers."""
         try:
             done = self._fetched(future)
+        except SchedulerError:
+            raise
         except CancelledError as error:
             raise SchedulerError(self._address, LOST) from error
         except (StrangeWorker, ImportError) as error:
@@ -175,13 +181,7 @@ class Cluster:
 
     def _fetched(self, future: "Future[Any]") -> Outcome[None, Any]:
         """The result, which may have to be worked out again first where its worker was lost with it."""
-        while True:
-            try:
-                fetched: Outcome[None, Any] = future.result(timeout=QUIET_S)
-            except TimeoutError:
-                self._look()
-            else:
-                return fetched
+        return self._waited(lambda: future.result(timeout=QUIET_S), TimeoutError)
 
     def _refuse_a_strange_scheduler(self) -> None:
         """It reads what it hands on: our modules have to be there, and of one version."""

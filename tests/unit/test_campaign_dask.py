@@ -7,12 +7,15 @@ import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, closing, contextmanager, suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Self
 
 import pytest
 
@@ -24,6 +27,7 @@ from pyarrow import parquet
 
 from campaigns.campaign import Progress, fly_campaign, write_campaign_tables
 from campaigns.errors import AddressError, SchedulerError
+from campaigns.executors.dask import Cluster as Workers
 from campaigns.executors.dask import dask
 from campaigns.executors.versions import difference, versions
 from campaigns.flying import fly_run
@@ -163,6 +167,49 @@ def test_a_campaign_whose_worker_is_killed_has_the_rows_of_this_machine_each_onc
     ]
 
 
+class Alone:
+    """A client whose scheduler has no worker any more, and whose futures end there and cannot be fetched."""
+
+    scheduler = SimpleNamespace(identity=None)
+    key = status = "finished"
+    asked = 0
+
+    def wait_for_workers(self, *_: object, **__: object) -> None: ...
+
+    def run_on_scheduler(self, work: Callable[[], dict[str, str]]) -> dict[str, str]:
+        return work()
+
+    def run(self, *_: object, **__: object) -> dict[str, dict[str, str]]:
+        return {}
+
+    def sync(self, *_: object, **__: object) -> dict[str, int]:
+        return {"n_workers": 0, "total_threads": 0}
+
+    def submit(self, *_: object, **__: object) -> Self:
+        return self
+
+    def add_done_callback(self, ended: Callable[[Self], None]) -> None:
+        ended(self)
+
+    def result(self, timeout: float) -> None:
+        self.asked += 1
+        assert self.asked < 1000, "asked for ever"
+        time.sleep(timeout)
+        raise TimeoutError
+
+    def cancel(self, *_: object, **__: object) -> None: ...
+
+
+def test_a_result_whose_last_worker_died_before_it_was_fetched_is_not_waited_for_for_ever(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("campaigns.executors.dask.WORKERS_S", 0.05)
+    monkeypatch.setattr("campaigns.executors.dask.QUIET_S", 0.001)
+    monkeypatch.setattr("campaigns.executors.dask._connected", lambda address: Alone())
+    with pytest.raises(SchedulerError, match=r"^tcp://a:1: no worker for 0\.05 s$"):
+        list(Workers("tcp://a:1").map(square, [1]))
+
+
 @pytest.mark.parametrize("fate", [signal.SIGSTOP, signal.SIGKILL])
 def test_a_scheduler_lost_in_mid_campaign_is_one_line_after_the_results_so_far(
     cluster: Cluster,
@@ -235,3 +282,14 @@ def test_the_first_difference_is_named() -> None:
     assert difference(ours, {**ours, "scipy": "1.0"}) == ""
     assert difference(ours, {"python": "3.11", "numpy": "2.3"}) == "numpy: found 2.3, expected 2.4.6"
     assert difference(ours, {"python": "3.11"}) == "numpy: found missing, expected 2.4.6"
+
+
+def test_a_processor_is_told_by_its_name_and_by_the_vector_units_it_lets_be_used(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("llvmlite.binding.get_host_cpu_name", lambda: "cascadelake")
+    monkeypatch.setattr("llvmlite.binding.get_host_cpu_features", lambda: {"avx2": True, "fma": True, "avx512f": False})
+    told = versions.__wrapped__()
+    assert told["cpu"] == "cascadelake fma avx2"
+    whole = {**told, "cpu": "cascadelake fma avx2 avx512f"}
+    assert difference(whole, told) == "cpu: found cascadelake fma avx2, expected cascadelake fma avx2 avx512f"

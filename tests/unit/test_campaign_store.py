@@ -200,7 +200,9 @@ def test_a_full_disk_is_one_line_and_what_is_done_is_whole(
     assert len(Store(folder).rows()) == 6
 
 
-@pytest.mark.parametrize("data", [b"", b"{", b"[]", b'{"run": {}, "row": {}}', b"\xff\xfe"])
+@pytest.mark.parametrize(
+    "data", [b"", b"{", b"[]", b'{"run": {}, "row": {}}', b'{"run": {}, "row": {"ok": true}, "cost": {}}', b"\xff\xfe"]
+)
 def test_a_damaged_result_is_flown_again(sweep: Sweep, folder: Path, data: bytes) -> None:
     fly(sweep, folder, Here())
     whole = (folder / "runs.parquet").read_bytes()
@@ -208,6 +210,97 @@ def test_a_damaged_result_is_flown_again(sweep: Sweep, folder: Path, data: bytes
     again = Here()
     fly(sweep, folder, again)
     assert again.begun[0] == 3
+    assert (folder / "runs.parquet").read_bytes() == whole
+
+
+def test_a_runs_folder_without_a_whole_result_of_its_own_is_flown_again(sweep: Sweep, folder: Path) -> None:
+    fly(sweep, folder, Here())
+    whole = (folder / "runs.parquet").read_bytes()
+    results = [folder / "runs" / run.run_id / "result.json" for run in sweep.runs]
+    results[2].unlink()
+    results[3].write_text(results[3].read_text().replace('"cpu_s"', '"cpu"'))
+    results[5].write_bytes(results[4].read_bytes())
+    again = Here()
+    progress = fly(sweep, folder, again)
+    assert again.begun[:3] == [3, 4, 6]
+    assert (progress.before, progress.now, progress.lost) == (3, 3, [])
+    assert (folder / "runs.parquet").read_bytes() == whole
+
+
+def test_who_dies_while_a_damaged_result_is_removed_leaves_no_run(
+    sweep: Sweep, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fly(sweep, folder, Here())
+    run_id = sweep.runs[2].run_id
+    (folder / "runs" / run_id / "result.json").write_bytes(b"{")
+
+    def dies(path: Path, **_: object) -> None:
+        (path / "result.json").unlink()
+        raise KeyboardInterrupt
+
+    store = open_store(folder, sweep, resume=True)
+    assert store.read(run_id) is None
+    with monkeypatch.context() as patch:
+        patch.setattr("campaigns.store.shutil.rmtree", dies)
+        with pytest.raises(KeyboardInterrupt):
+            store.discard_damaged()
+    assert run_id not in store.done()
+    assert fly(sweep, folder, Here()).now == 1
+    assert not list((folder / "runs").glob(".*"))
+
+
+@pytest.mark.parametrize("code", [errno.EIO, errno.EMFILE, errno.ESTALE, errno.EACCES])
+def test_a_result_that_the_disk_does_not_give_is_one_line_and_stays(
+    sweep: Sweep, folder: Path, monkeypatch: pytest.MonkeyPatch, code: int
+) -> None:
+    fly(sweep, folder, Here())
+    path, read = folder / "runs" / sweep.runs[2].run_id / "result.json", Path.read_bytes
+
+    def fails(this: Path) -> bytes:
+        if this == path:
+            raise OSError(code, os.strerror(code))
+        return read(this)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "read_bytes", fails)
+        with pytest.raises(CampaignError) as caught:
+            fly(sweep, folder, Here())
+    assert str(caught.value) == f"{path}: cannot be read: {os.strerror(code)}; it stays as it is"
+    again = Here()
+    assert fly(sweep, folder, again).before == 6
+    assert again.begun == []
+
+
+def test_a_run_of_which_nothing_came_is_lost(sweep: Sweep, folder: Path) -> None:
+    class Forgets(Here):
+        def map(self, work: Any, items: Iterable[Any], **_: Any) -> Iterator[Outcome[Any, Any]]:
+            for outcome in super().map(work, items):
+                run = outcome.item
+                if run.seed != 2:
+                    yield outcome  # which is kept before the next is asked for
+                if run.seed == 5:
+                    (folder / "runs" / run.run_id / "result.json").unlink()
+
+    store, progress = open_store(folder, sweep, resume=False), Progress(wanted=6)
+    fly_campaign(sweep, store, sweep.runs, Forgets(), progress, lambda _: None)
+    assert (progress.done, [row["seed"] for row in progress.lost]) == (4, [2, 5])
+    assert progress.lost[0]["cause"] == "its result is not there, or is damaged"
+
+
+def test_it_says_how_many_results_are_of_other_versions_and_the_table_is_the_same(
+    sweep: Sweep, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    fly(sweep, folder, Here(lost=[1, 2]))
+    fly(sweep, folder, Here(lost=[1, 2]))
+    assert capsys.readouterr().err == ""
+    with monkeypatch.context() as patch:
+        patch.setattr("campaigns.executors.versions.versions", lambda: {"numba": "0.1"})
+        fly(sweep, folder, Here())
+    other = "results are of other sources, packages or processors than these: they may not be what these would give\n"
+    assert capsys.readouterr().err == f"companion: {folder}: 4 of 4 {other}"
+    whole = (folder / "runs.parquet").read_bytes()
+    fly(sweep, folder, Here())
+    assert capsys.readouterr().err == f"companion: {folder}: 2 of 6 {other}"
     assert (folder / "runs.parquet").read_bytes() == whole
 
 
