@@ -1,7 +1,8 @@
 """A replay answers a ground station that asks for parameters and missions: from what the recording holds.
 
 Parameters come from the PARAM_VALUEs that the vehicle sent, the last of each name, bit for bit (PX4 puts integers into
-the bytes of the float). They are numbered anew, since a recording seldom holds all of them. The mission is the last
+the bytes of the float); those that were not sent, from the file of them that the recording holds. They are numbered
+anew, since a recording seldom holds all of them. The mission is the last
 that crossed the wire whole, up or down; or one that is handed over. A message asked for by REQUEST_MESSAGE is the last
 that was sent of it. Everything else is denied, with a reason: nothing is obeyed, nothing is changed.
 
@@ -19,13 +20,15 @@ from typing import Any
 
 from fastcrc import crc16
 
+from logs.parameters import HASH_CHECK, ToldParameters
 from logs.reader import RecordedMessage
+from logs.secrets import carries_key
 from logs.wire_replay import is_autopilot
 from wire.datagram import Address
 from wire.dialect import mavlink
 from wire.framing import Framer, Packet
 
-HASH = b"_HASH_CHECK"
+HASH = HASH_CHECK.encode()
 """PX4's checksum of all parameters: a ground station would believe it knows the rest."""
 MAX_WAITING = 20_000
 """Answers waiting at most; more questions are not heard."""
@@ -67,6 +70,7 @@ class Answering:
     messages : the recording's; gone through once.
     link : toward the vehicle.
     mission : items (MISSION_ITEM_INT objects) to answer with, where none crossed the wire.
+    parameters : a .params file, of those who were heard on the link: for what they did not tell on it.
 
     Attributes
     ----------
@@ -74,7 +78,9 @@ class Answering:
     missions : by mission type, its items.
     """
 
-    def __init__(self, messages: Iterable[RecordedMessage], link: str, mission: Sequence[Any] = ()) -> None:
+    def __init__(
+        self, messages: Iterable[RecordedMessage], link: str, mission: Sequence[Any] = (), parameters: bytes = b""
+    ) -> None:
         self._told: dict[tuple[int, int], _Told] = {}
         self._main: tuple[int, int] | None = None
         self.missions: dict[int, list[Any]] = {}
@@ -83,7 +89,10 @@ class Answering:
         self._waiting: deque[tuple[bytes, Address]] = deque()
         self._next_us = 0
         self._told_us = -TOLD_US
+        self._attached = ToldParameters()
+        self._attached.read(parameters)
         self._gather(messages, link)
+        self._complete()
         if mission and not self.missions.get(mavlink.MAV_MISSION_TYPE_MISSION):
             self.missions[mavlink.MAV_MISSION_TYPE_MISSION] = list(mission)
         self.parameters: Mapping[tuple[int, int], tuple[bytes, ...]] = {
@@ -153,10 +162,21 @@ class Answering:
                 if index == 0xFFFF:
                     index = known[0] if known is not None else 0x10000 + len(told.parameters)
                 told.parameters[name] = index, value, kind
-        elif packet.message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT and self._main is None:
-            self._main = who if is_autopilot(packet, self._decoder) else None
-        if packet.message_id in mavlink.mavlink_map and len(told.messages) < 4096:
+        elif packet.message_id == mavlink.MAVLINK_MSG_ID_HEARTBEAT:
+            self._attached.heard(packet.message_id, *who, packet.payload)  # who packs integers in which way
+            if self._main is None:
+                self._main = who if is_autopilot(packet, self._decoder) else None
+        if packet.message_id not in mavlink.mavlink_map or carries_key(packet.raw):
+            return
+        if len(told.messages) < 4096:
             told.messages[packet.message_id] = packet
+
+    def _complete(self) -> None:
+        """Add the attached parameters to those that were told."""
+        for (system, component, name), (value, kind) in self._attached.packed().items():
+            told = self._told.get((system, component))
+            if told is not None and len(told.parameters) < 0xFFFF:
+                told.parameters.setdefault(name.encode(), (0x10000 + len(told.parameters), value, kind))
 
     def _mission(self, packet: Packet, transfers: dict[int, _Transfer]) -> None:
         """Follow a transfer, in whichever direction; the mission of a type is the last that was whole."""

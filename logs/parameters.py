@@ -11,6 +11,7 @@ PX4 packs an integer's bytes into the float field, ArduPilot sends the float nea
 import re
 import struct
 from collections.abc import Mapping
+from contextlib import suppress
 
 from logs.container import Attachment
 from logs.rows import shortest
@@ -89,6 +90,20 @@ class ToldParameters:
     def attachment(self) -> Attachment:
         """All of them as a file."""
         return params_file(self._all())
+
+    def packed(self) -> dict[Key, tuple[bytes, int]]:
+        """As PARAM_VALUEs hold them: four bytes, integers as their system packs them, and MAV_PARAM_TYPE.
+
+        What was read and fits into none is left out.
+        """
+        packed = dict[Key, tuple[bytes, int]]()
+        for key, (value, kind) in self._values.items():
+            form = _INTEGERS.get(kind) if key[0] in self._bytewise else None
+            if key[2] == HASH_CHECK or not _NAME.fullmatch(key[2]) or not 0 <= kind <= 0xFF:
+                continue
+            with suppress(struct.error, OverflowError):  # more than such a parameter can be
+                packed[key] = struct.pack(form or _FLOAT.format, value), kind
+        return packed | self._raw
 
     def _all(self) -> dict[Key, tuple[float, int]]:
         told = {key: (self._value(key[0], *raw), raw[1]) for key, raw in self._raw.items()}

@@ -15,6 +15,7 @@ from companion.cli.operator import Operator
 from companion.drivers.missionitems import mission_items
 from logs.answering import Answering
 from logs.errors import RecordingError
+from logs.parameters import ATTACHMENT as PARAMETERS
 from logs.reader import Recording
 from logs.replay_driver import Progress, replay
 from logs.selection import Selection, nothing_left
@@ -62,7 +63,7 @@ def replay_log(path: Path, to: str, asked: Asked, as_json: bool) -> int:
     with show.working(out, "reading"):
         traffic = _Traffic(recording, asked)
         answers = asked.answer and not asked.to_a_vehicle
-        answering = Answering(recording.messages(), traffic.link, mission_items(recording)) if answers else None
+        answering = answers_from(recording, traffic.link) if answers else None
     if recording.problem:
         out.print(show.plain(f"{path}: not complete: {recording.problem}"), soft_wrap=True)
     end = _send(recording, traffic, endpoint, asked, answering, out)
@@ -91,6 +92,13 @@ def replay_log(path: Path, to: str, asked: Asked, as_json: bool) -> int:
         }
     )
     return 0 if ok else 1
+
+
+def answers_from(recording: Recording, link: str) -> Answering:
+    """What a ground station is answered from."""
+    attached = recording.attachments.get(PARAMETERS)
+    file = attached.data if attached is not None else b""
+    return Answering(recording.messages(), link, mission_items(recording), file)
 
 
 class _Traffic:

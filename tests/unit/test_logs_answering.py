@@ -4,12 +4,14 @@ import math
 import struct
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 from logs_traffic import TLOG, heartbeat
 
-from logs import Recording
+from companion.cli.replay import answers_from
+from logs import Attachment, Recording
 from logs.answering import REFUSAL, Answering
 from logs.recorder import Recorder
 from wire.dialect import mavlink as m
@@ -119,6 +121,45 @@ def test_setting_a_parameter_is_answered_with_what_it_was(answering: Answering) 
     assert found.param_value == pytest.approx(0.1)
 
 
+ATTACHED = b"""# Onboard parameters
+1\t1\tBAT_LOW_THR\t0.9\t9
+1\t1\tCOM_ALTITUDE\t2.5\t9
+1\t1\tMAV_TOO_MUCH\t1e300\t9
+1\t1\tSYS_AUTOSTART\t4001\t6
+1\t1\tSYS_NEGATIVE\t-2\t2
+1\t1\tTOO_LONG_A_NAME_FOR_ONE\t1\t6
+1\t1\t_HASH_CHECK\t17\t5
+7\t1\tOF_NOBODY_HEARD\t1.0\t9
+"""
+
+
+def test_what_was_not_told_on_the_wire_comes_from_the_attached_file(recording: Recording) -> None:
+    found = ask(Answering(recording.messages(), "autopilot", (), ATTACHED), m.MAVLink_param_request_list_message(1, 1))
+    assert [(p.param_id, p.param_index, p.param_count, p.param_type) for p in found] == [
+        ("BAT_LOW_THR", 0, 6, 9),
+        ("SYS_BYTES", 1, 6, 6),
+        ("MPC_XY_VEL_MAX", 2, 6, 9),
+        ("COM_ALTITUDE", 3, 6, 9),
+        ("SYS_AUTOSTART", 4, 6, 6),
+        ("SYS_NEGATIVE", 5, 6, 2),
+    ]
+    values = [p.param_value for p in found]
+    assert values[0] == pytest.approx(0.1)  # what was heard wins
+    assert values[3] == 2.5
+    assert struct.pack("<f", values[4]) == (4001).to_bytes(4, "little")
+    assert struct.pack("<f", values[5])[0] == 0xFE
+
+
+@pytest.mark.parametrize(("autopilot", "sent"), [(12, struct.pack("<i", 7)), (3, struct.pack("<f", 7.0))])
+def test_an_attached_integer_is_told_as_its_autopilot_packs_it(tmp_path: Path, autopilot: int, sent: bytes) -> None:
+    file = Attachment("vehicle.params", "text/plain", b"1\t1\tRTL_TYPE\t7\t6\n")
+    with Recorder(tmp_path / "a.mcap", metadata={}, attachments=[file], threaded=False) as recorder:
+        recorder.datagram("autopilot", "rx", heartbeat(1, 1, autopilot), log_time_ns=0, now_us=0, tick=0)
+    answering = answers_from(Recording.open(tmp_path / "a.mcap"), "autopilot")
+    [found] = ask(answering, m.MAVLink_param_request_list_message(1, 1))
+    assert (found.param_id, struct.pack("<f", found.param_value), found.param_type) == ("RTL_TYPE", sent, 6)
+
+
 def test_the_mission_is_the_last_that_crossed_the_wire_whole(answering: Answering) -> None:
     [count] = ask(answering, m.MAVLink_mission_request_list_message(1, 1))
     assert (count.count, count.mission_type, count.target_system, count.target_component) == (2, 0, 255, 190)
@@ -168,6 +209,15 @@ def test_a_message_asked_for_is_the_last_that_was_sent_of_it(answering: Answerin
     ack, home = ask(answering, command(m.MAV_CMD_REQUEST_MESSAGE, m.MAVLINK_MSG_ID_HOME_POSITION))
     assert (ack.command, ack.result, ack.target_system) == (512, m.MAV_RESULT_ACCEPTED, 255)
     assert (home.latitude, home.longitude, home.altitude) == (1, 2, 3)
+
+
+def test_a_recorded_setup_signing_is_given_to_nobody(recording: Recording) -> None:
+    *_, last = recording.messages()
+    signing = replace(last, data=pack(m.MAVLink_setup_signing_message(1, 1, [7] * 32, 1)))
+    answering = Answering([*recording.messages(), signing], "autopilot")
+    ack, *more = ask(answering, command(m.MAV_CMD_REQUEST_MESSAGE, m.MAVLINK_MSG_ID_SETUP_SIGNING))
+    assert ack.result == m.MAV_RESULT_DENIED
+    assert [message.get_type() for message in more] == ["STATUSTEXT"]
 
 
 def command(number: int, first: float = 0.0) -> Any:
