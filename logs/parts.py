@@ -134,16 +134,23 @@ class Parts:
         return self._file.fileno()
 
     def close(self) -> None:
-        """Leave the present part as it is."""
-        if self._file is not None:
-            self._file.close()
-        self._file, self.container = None, None
+        """Leave the present part as it is.
+
+        Raises
+        ------
+        OSError    What was written did not all reach the disk; it is closed all the same.
+        """
+        file, self._file, self.container = self._file, None, None
+        if file is not None:
+            file.close()
 
     def withdraw(self) -> None:
         """Take the newest part away again, which is not the first."""
-        self.close()
+        path = self.paths.pop()
         with suppress(OSError):
-            self.paths.pop().unlink()
+            self.close()
+        with suppress(OSError):
+            path.unlink()
 
     def disk(self) -> tuple[int, int]:
         """Bytes free for us, and in all, on the disk of the recording."""
@@ -174,7 +181,8 @@ class Parts:
             for attachment in self._attachments:
                 container.add_attachment(attachment.name, attachment.media_type, attachment.data)
         except OSError:
-            file.close()
+            with suppress(OSError):
+                file.close()
             path.unlink(missing_ok=True)
             raise
         self._file, self.container = file, container

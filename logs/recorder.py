@@ -136,6 +136,7 @@ class Recorder:
         self._gap: Gap | None = None  # nothing is being written
         self._broken = False  # nor will be
         self._where = "in it"  # what is missing once something is
+        self._goes_on = ""  # to be told once a part after a gap holds something
         self._tables: deque[TableItem] = deque(maxlen=MAX_TABLES)  # that wait for a part
         self._resumed_at: int | None = None  # entries missing before the gap that this part ended, if it did
         self._whole_to_ns = 0  # everything up to this log time is on the disk
@@ -147,14 +148,14 @@ class Recorder:
         self._flush_at = self._losses_at = self._retry_at = self._part_ends_at = -1  # [ns] of `_now_ns`
         self._queue: deque[Item] = deque()
         # Counted by the caller; `_dropped_raw` and `_taken_bytes` by the writer: no two threads add to one number.
-        self._overflowed = self._put_bytes = 0
+        self._overflowed = self._overflowed_mirrors = self._put_bytes = 0
         self._taken_bytes = 0
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
         self._settler: Settler | None = None
         if threaded:
             self._settler = Settler(f"recorder {path.name} to disk")
-            self._settler.follow(self._parts.descriptor)
+            self._settler.follow(self._parts.descriptor, path.parent)
             self._thread = threading.Thread(target=self._run, name=f"recorder {path.name}", daemon=True)
             self._thread.start()
 
@@ -212,7 +213,7 @@ class Recorder:
             tx=dict(scribe.tx),
             decoded=scribe.decoded,
             messages=scribe.messages + scribe.made,
-            dropped_decoded=scribe.dropped_decoded,
+            dropped_decoded=scribe.dropped_decoded + self._overflowed_mirrors,
             dropped_raw=self._dropped_raw + self._overflowed,
             masked=scribe.masked,
             parts=self._parts.number,
@@ -243,16 +244,25 @@ class Recorder:
         if self._thread is not None:
             self._wake.set()
             self._thread.join()
+            if self._queue:  # whatever ended the thread
+                self.failure = self.failure or "the writer ended before the flight"
         try:
+            while self._queue:
+                item = self._queue.popleft()
+                if len(item) == 2:
+                    self._write(item, False)
+                else:
+                    self._miss(item)
             if self._gap is not None and not self._broken and self._parts.number < MOST_PARTS:
                 self._begin("the recording ended")  # there is room for what is missing to be told, if for anything
             self._attempt(self._finish)
+            self._tell_it_goes_on()
         except Exception as error:
             if self._thread is None:
                 raise
             self._break(error)
         finally:
-            self._parts.close()
+            self._close_part()
             if self._settler is not None:
                 self._settler.close()
                 self._unsettled()
@@ -283,6 +293,9 @@ class Recorder:
                 self._look()
             return
         full = len(self._queue) >= MAX_BACKLOG or self._put_bytes - self._taken_bytes >= MAX_BACKLOG_BYTES
+        if full and len(item) == 4:
+            self._overflowed_mirrors += 1
+            return
         if full and len(item) > 2:
             if not self._overflowed:
                 self._notices.append("the disk is too slow: not everything is recorded")
@@ -301,7 +314,10 @@ class Recorder:
             while queue:
                 for _ in range(min(256, len(queue))):
                     item = queue.popleft()
-                    write(item, len(queue) < DECODE_BACKLOG and self._decodes)
+                    try:
+                        write(item, len(queue) < DECODE_BACKLOG and self._decodes)
+                    except Exception as error:  # from ending the part
+                        self._break(error)
                     if len(item) == 7:
                         self._taken_bytes += len(item[5])
                 self._look_safely()
@@ -377,11 +393,18 @@ class Recorder:
             self._losses_at = now_ns + _ns(LOSSES_S)
             self._attempt(self._record_losses)
         self._attempt(self._container.flush)
+        self._tell_it_goes_on()
         self._unsettled()
         if self._gap is None and self._threaded:
             self._watch_room()
         if self._gap is None and self._part_is_full(now_ns):
             self._rotate()
+
+    def _tell_it_goes_on(self) -> None:
+        """Tell it once the disk took something: a part that it did not is taken away again, and tried again."""
+        if self._goes_on and (self._resumed_at is None or self._container.newest_ns):
+            self._notices.append(self._goes_on)
+            self._goes_on = ""
 
     def _unsettled(self) -> None:
         """Tell once that the disk does not take what the system wrote for us."""
@@ -402,6 +425,7 @@ class Recorder:
     def _record_losses(self) -> None:
         """A record for each counter that has changed."""
         values = {"recorder.dropped_raw": self._dropped_raw + self._overflowed} | self._scribe.losses()
+        values["recorder.dropped_decoded"] += self._overflowed_mirrors
         with suppress(OSError, ValueError):  # the sockets are closed: what was told of them last holds
             values |= self._more_losses()
         for name, total in values.items():
@@ -417,7 +441,8 @@ class Recorder:
             told = parameters.attachment()
             self._container.add_attachment(told.name, told.media_type, told.data)
         dropped = str(self._dropped_raw + self._overflowed)
-        self._container.add_metadata("recorder", {"dropped_raw": dropped, **self._scribe.table()})
+        table = self._scribe.table() | {"dropped_decoded": str(self.counters.dropped_decoded)}
+        self._container.add_metadata("recorder", {"dropped_raw": dropped, **table})
         self._container.finish()
 
     # ---- parts --------------------------------------------------------------------------------------------------
@@ -435,8 +460,16 @@ class Recorder:
         """End this part, begin the next."""
         self._attempt(self._finish)
         if self._gap is None:
-            self._parts.close()
+            self._close_part()
             self._begin("the part before was full")
+
+    def _close_part(self) -> None:
+        """Leave the present part; what the disk says only then is told, and ends nothing."""
+        try:
+            self._parts.close()
+        except OSError as error:
+            self.failure = self.failure or f"writing failed: {_reason(error)}"
+            self._notices.append(f"it is not sure that all of the part before is recorded: {_reason(error)}")
 
     def _begin(self, why: str) -> None:
         """Begin the next part, if the disk takes it; otherwise there is a gap, or there goes on to be one."""
@@ -455,8 +488,8 @@ class Recorder:
             return
         self._scribe.begin(self._container)
         if self._settler is not None:
-            self._settler.follow(self._parts.descriptor)
-        self._resumed_at = None if self._gap is None or self._tables else self._gap.missing
+            self._settler.follow(self._parts.descriptor, self.path.parent)
+        self._resumed_at = None if self._gap is None else self._gap.missing
         self._gap = None
         self._attempt(self._resume)
         if self._gap is not None:
@@ -465,7 +498,7 @@ class Recorder:
         self._part_begins(self._now_ns())
         if gap is not None:
             self._where = "between its parts"
-            self._notices.append(f"recording goes on in {self._parts.paths[-1]}: {gap.missing} entries are missing")
+            self._goes_on = f"recording goes on in {self._parts.paths[-1]}: {gap.missing} entries are missing"
 
     def _resume(self) -> None:
         """What a further part begins with: what stands, and tables that found no room in the one before."""
@@ -473,6 +506,7 @@ class Recorder:
         while self._tables:
             self._container.add_metadata(*self._tables[0])
             self._tables.popleft()
+            self._resumed_at = None
 
     def _abandon(self, error: OSError) -> None:
         """The disk did not take what there was: end this part with what it has, and try another later.
@@ -481,21 +515,29 @@ class Recorder:
         """
         missing = self._dropped_raw + self._overflowed
         self._dropped_raw += self._scribe.take_back(self._container.abandon())
+        same = False  # gap as before
         if self._resumed_at is not None and not self._container.newest_ns:
-            missing = self._resumed_at
+            missing, same = self._resumed_at, True
+            if self._settler is not None:
+                self._settler.forget()
             self._parts.withdraw()
-        self._parts.close()
-        self._open_gap(_reason(error), missing)
+        self._close_part()
+        self._open_gap(_reason(error), missing, same)
 
-    def _open_gap(self, reason: str, missing: int | None = None) -> None:
-        """From here on nothing is written; `missing`: how many entries were, before the first of this gap."""
+    def _open_gap(self, reason: str, missing: int | None = None, same: bool = False) -> None:
+        """From here on nothing is written.
+
+        missing : how many entries were missing before the first of this gap. same : the gap was told already.
+        """
         before = self._dropped_raw + self._overflowed if missing is None else missing
         self._whole_to_ns = self._container.newest_ns or self._whole_to_ns
         self._gap = Gap(reason, self._whole_to_ns, missing=before)
         self.failure = self.failure or f"writing failed: {reason}"
         self._retry_at = self._now_ns() + _ns(RETRY_S)
         goes_on = "the flight goes on without" if self._broken else f"a new part is tried every {RETRY_S:g} s"
-        self._notices.append(f"nothing is recorded: {reason}; {goes_on}")
+        self._goes_on = ""
+        if not same or self._broken:
+            self._notices.append(f"nothing is recorded: {reason}; {goes_on}")
 
     def _break(self, error: Exception) -> None:
         """A fault of ours: nothing is recorded any more, and `close` says so."""
@@ -508,7 +550,7 @@ class Recorder:
         try:
             self._abandon(OSError(0, reason))
         except Exception:  # the same again: what is on the disk stays as it is
-            self._parts.close()
+            self._close_part()
             self._open_gap(reason)
 
     def _retry(self) -> None:
@@ -537,7 +579,7 @@ class Recorder:
         if free < room.stop:
             self._attempt(self._finish)
             if self._gap is None:
-                self._parts.close()
+                self._close_part()
                 self._open_gap(left)
             return
         if free < room.warn and not self._warned:

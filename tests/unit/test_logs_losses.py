@@ -7,6 +7,7 @@ from logs_traffic import heartbeat, record
 
 from logs import Recording, RecordingError, schema, ticks
 from logs import recorder as recorder_module
+from logs.mirrors import Said
 from logs.parts import Rotation
 from logs.recorder import Recorder
 
@@ -95,6 +96,35 @@ def test_counters_that_cannot_be_read_end_the_recording_with_a_word_and_every_en
     assert len(raw) + recorder.counters.dropped_raw == 800
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_what_still_waits_when_the_writer_has_ended_is_counted(tmp_path: Path) -> None:
+    ended = False
+
+    def losses() -> dict[str, int]:
+        nonlocal ended
+        if not ended:
+            ended = True
+            raise KeyboardInterrupt  # no exception that anybody catches
+        return {}
+
+    path = tmp_path / "a.mcap"
+    recorder = Recorder(path, metadata={}, threaded=True, losses=losses)
+    recorder._losses_at = 0
+    recorder._flush_at = 0
+    fly(recorder, 10, range(0))
+    assert recorder._thread is not None
+    recorder._thread.join(5.0)
+    fly(recorder, 10, range(0))
+    recorder.metadata("outcome", {"ok": "yes"})
+    with pytest.raises(RecordingError, match=r"the writer ended before the flight; .* entries are missing"):
+        recorder.close()
+    recording = Recording.open(path)
+    raw = [m for m in recording.messages() if m.channel.topic in ("/mavlink/raw/autopilot/rx", "/companion/tick")]
+    assert len(raw) + recorder.counters.dropped_raw == 40
+    assert recorder.counters.dropped_raw >= 20
+    assert recording.metadata["outcome"] == {"ok": "yes"}
+
+
 def test_every_part_tells_the_totals_so_far(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     with Recorder(path, metadata={}, threaded=False, rotation=Rotation(seconds=5.0)) as recorder:
@@ -112,3 +142,18 @@ def test_what_the_queue_drops_is_told_at_the_end(tmp_path: Path, monkeypatch: py
     with pytest.raises(RecordingError, match="100 entries are missing"):
         recorder.close()
     assert ("recorder.dropped_raw", 100) in [(of, total) for _, of, total in told(tmp_path / "a.mcap")]
+
+
+def test_mirrors_that_find_no_place_in_the_queue_are_no_entries_that_are_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recorder_module, "MAX_BACKLOG", 40)
+    monkeypatch.setattr(recorder_module, "BATCH_S", 10.0)  # the thread sleeps until close
+    with Recorder(tmp_path / "a.mcap", metadata={}, threaded=True) as recorder:
+        fly(recorder, 20, range(0))
+        for _ in range(7):
+            recorder.mirror(Said(6, "words"), log_time_ns=400_000_000, now_us=400_000, tick=20)
+        assert recorder.notices() == []
+    assert (recorder.counters.dropped_raw, recorder.counters.dropped_decoded) == (0, 7)
+    assert [(of, total) for _, of, total in told(tmp_path / "a.mcap")] == [("recorder.dropped_decoded", 7)]
+    assert Recording.open(tmp_path / "a.mcap").metadata["recorder"]["dropped_decoded"] == "7"

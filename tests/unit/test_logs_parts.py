@@ -239,6 +239,78 @@ def test_a_table_that_finds_no_room_stands_in_the_next_part_and_mirrors_are_no_e
     assert Recording.open(tmp_path / "a.mcap").metadata["outcome"] == {"ok": "yes"}
 
 
+def test_a_gap_is_told_once_however_often_a_new_part_finds_no_room(
+    tmp_path: Path, disk: Callable[[int], FullDisk], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    full = disk(20_000)
+    recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=False)
+    tick, tried = fly(recorder, 20.0), 0
+    withdraw = parts_module.Parts.withdraw
+
+    def count(parts: parts_module.Parts) -> None:
+        nonlocal tried
+        tried += 1
+        withdraw(parts)
+        full.room = 600
+
+    monkeypatch.setattr(parts_module.Parts, "withdraw", count)
+    full.room = 600  # for the beginning of a part, not for what comes
+    recorder.notices()
+    recorder.metadata("outcome", {"words": "x" * 2000})
+    tick = fly(recorder, 30.0, tick)
+    assert tried >= 5
+    assert recorder.notices() == []
+    full.room += 1_000_000
+    fly(recorder, 20.0, tick)
+    told = [notice.partition(":")[0] for notice in recorder.notices()]
+    assert told == [f"recording goes on in {recorder.paths[-1]}"]
+    with pytest.raises(RecordingError, match="entries are missing between its parts"):
+        recorder.close()
+    assert Recording.open(tmp_path / "a.mcap").metadata["outcome"] == {"words": "x" * 2000}
+
+
+class Unclosable(FullDisk):
+    """What was written does not all reach it, which it says when a file is closed."""
+
+    def open(self, path: Path, mode: str, buffering: int = -1) -> Any:
+        file = super().open(path, mode, buffering)
+        close = file.close
+
+        def failing() -> None:
+            close()
+            raise OSError(errno.EIO, "Input/output error")
+
+        file.close = failing
+        return file
+
+
+def test_a_disk_that_fails_as_a_part_is_closed_ends_no_writer_and_every_entry_is_accounted_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(parts_module, "open", Unclosable(30_000).open, raising=False)
+    monkeypatch.setattr("logs.container.CHUNK_BYTES", 3000)
+    recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=True)
+    fly(recorder, 20.0)
+    recorder._wake.wait(0.12)  # two turns of the writer
+    tick = fly(recorder, 20.0, 1000)
+    assert tick == 2000
+    with pytest.raises(RecordingError, match=r"entries are missing at its end"):
+        recorder.close()
+    assert not recorder._queue
+    raw = [m for m in strict(tmp_path / "a.mcap") if m[0] not in ("/mavlink/1/1/HEARTBEAT", "/companion/losses")]
+    assert len(raw) + recorder.counters.dropped_raw == 2000 * 4
+
+
+def test_a_last_part_that_is_not_closed_well_is_told_and_not_raised_past_the_recorder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(parts_module, "open", Unclosable(1_000_000).open, raising=False)
+    recorder = Recorder(tmp_path / "a.mcap", metadata={}, threaded=False)
+    fly(recorder, 1.0)
+    with pytest.raises(RecordingError, match="writing failed: Input/output error; 0 entries"):
+        recorder.close()
+
+
 @pytest.mark.parametrize("room", [20_000, 30_000, 33_333])
 def test_a_disk_that_stays_full_costs_what_comes_after_and_close_says_so(
     tmp_path: Path, disk: Callable[[int], FullDisk], room: int
