@@ -1,5 +1,6 @@
 """A foreign page in the same browser, which somehow knows the live page's address and token: it gets nothing of it."""
 
+import urllib.request
 from collections.abc import Iterator
 
 import pytest
@@ -48,18 +49,23 @@ def test_it_gets_no_socket_and_gives_no_order(foreign: Page, address: str, feed:
     assert feed.take_order() is None
 
 
-def test_it_reads_nothing_of_the_page_and_cannot_frame_it(foreign: Page, address: str):
+def test_it_reads_nothing_of_the_page_and_cannot_frame_it(browser: Browser, foreign: Page, address: str):
     read = foreign.js(f"fetch({address!r}).then((answer) => answer.text()).catch(() => 'refused')")
     assert read == "refused"
+    with urllib.request.urlopen(address, timeout=5) as answer:
+        assert answer.headers["X-Frame-Options"] == "DENY"
+        assert answer.headers["Cross-Origin-Resource-Policy"] == "same-origin"
     foreign.js(f"""new Promise((done) => {{
         const frame = document.createElement("iframe");
         frame.onload = () => done(true);
         frame.src = {address!r};
         document.body.append(frame);
     }})""")
-    tree = foreign.call("Page.getFrameTree")["frameTree"]
-    inside = [child["frame"] for child in tree.get("childFrames", [])]
-    assert all("unreachableUrl" in frame or not frame["url"].startswith("http") for frame in inside), inside
+    [inside] = [t for t in browser.call("Target.getTargets")["targetInfos"] if t["type"] == "iframe"]
+    session = browser.call("Target.attachToTarget", targetId=inside["targetId"], flatten=True)["sessionId"]
+    frame = browser.call("Page.getFrameTree", session)["frameTree"]["frame"]
+    assert frame["unreachableUrl"] == address  # an error stands in its place
+    assert frame["url"].startswith("chrome-error:")
 
 
 def test_the_page_itself_is_let_in_by_the_same_browser(browser: Browser, address: str, feed: feeds.Feed):

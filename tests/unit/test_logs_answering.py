@@ -212,9 +212,11 @@ def test_a_message_asked_for_is_the_last_that_was_sent_of_it(answering: Answerin
 
 
 def test_a_recorded_setup_signing_is_given_to_nobody(recording: Recording) -> None:
-    *_, last = recording.messages()
-    signing = replace(last, data=pack(m.MAVLink_setup_signing_message(1, 1, [7] * 32, 1)))
+    first, *_ = recording.messages()
+    signing = replace(first, data=pack(m.MAVLink_setup_signing_message(1, 1, [7] * 32, 1)))
     answering = Answering([*recording.messages(), signing], "autopilot")
+    [beat] = ask(answering, command(m.MAV_CMD_REQUEST_MESSAGE, m.MAVLINK_MSG_ID_HEARTBEAT))[1:]
+    assert beat.get_type() == "HEARTBEAT"
     ack, *more = ask(answering, command(m.MAV_CMD_REQUEST_MESSAGE, m.MAVLINK_MSG_ID_SETUP_SIGNING))
     assert ack.result == m.MAV_RESULT_DENIED
     assert [message.get_type() for message in more] == ["STATUSTEXT"]
