@@ -116,10 +116,11 @@ def spaces(figure: Figure, results: Results, rows: Mapping[str, Any]) -> None:
         for solid in world.obstacles:
             faces = Poly3DCollection(sides(solid), facecolor="#5b6472", edgecolor="#3d4450", lw=0.3, alpha=0.28)
             axes.add_collection3d(faces)
-        (row,) = [row for row in shown(rows, family) if row["method"] == "haoaroa"]
-        plan, track = np.array(row["path"]), np.array(row["track"])
-        axes.plot(plan[:, 0], plan[:, 1], -plan[:, 2], color=COLOUR["haoaroa"], lw=3, alpha=0.5, label="planned")
-        if len(track):
+        for row in (row for row in shown(rows, family) if row["method"] == "haoaroa"):
+            plan, track = np.array(row["path"]), np.array(row["track"])
+            axes.plot(plan[:, 0], plan[:, 1], -plan[:, 2], color=COLOUR["haoaroa"], lw=3, alpha=0.5, label="planned")
+            if not len(track):
+                continue
             axes.plot(track[:, 0], track[:, 1], -track[:, 2], color=GREEN, lw=1.2, label="flown")
             up = track * [1.0, 1.0, -1.0]
             near = up[int(np.argmin(world.distance(up)))]
@@ -186,10 +187,11 @@ def gains(figure: Figure, results: Results, rows: Mapping[str, Any]) -> None:
     bars = figure.add_subplot(1, 2, 2)
     held = [row for row in results["holds"] if row["offset_m"] is not None]
     colors = [RED if row["gains"] == "paper" else COLOURS[0] for row in held]
-    bars.bar([row["gains"] for row in held], [row["offset_m"] for row in held], color=colors)
+    half = [row["offset_half"] or 0.0 for row in held]
+    bars.bar([row["gains"] for row in held], [row["offset_m"] for row in held], yerr=half, color=colors, capsize=4)
     for i, row in enumerate(held):
         bars.text(i, row["offset_m"], f"{row['offset_m']:.3f}", ha="center", va="bottom", fontsize=9)
-    bars.set(ylabel="offset from the place [m]")
+    bars.set(ylabel="offset from the place, mean [m]")
     bars.set_title(f"held in {results['wind']:.0f} m/s of steady wind", loc="left", fontsize=10)
     bars.grid(axis="y", alpha=0.25)
 

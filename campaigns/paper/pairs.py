@@ -1,4 +1,7 @@
-"""Two methods in the same worlds: the mean ratio with its confidence interval, so that the worlds cancel out."""
+"""Two methods in the same worlds: the mean ratio with its confidence interval, so that the worlds cancel out.
+
+What was flown is compared over flights that ended as their missions expect.
+"""
 
 import math
 from typing import Any
@@ -6,6 +9,9 @@ from typing import Any
 import numpy as np
 
 from campaigns.tuning.statistics import mean
+
+FLOWN = frozenset({"tracking_percentile_m"})
+"""Columns that are a flight's, not the plan's."""
 
 
 def versus(rows: list[dict[str, Any]], column: str, method: str, rival: str) -> dict[str, Any]:
@@ -39,4 +45,5 @@ def all_pairs(rows: list[dict[str, Any]], columns: tuple[str, ...], methods: tup
 def _column(rows: list[dict[str, Any]], column: str, method: str) -> dict[tuple[str, int], float]:
     """The values that a method has, by world."""
     mine = [row for row in rows if row["method"] == method and row.get(column) is not None]
+    mine = [row for row in mine if column not in FLOWN or row["flown_ok"]]
     return {(row["family"], row["seed"]): float(row[column]) for row in mine}

@@ -36,7 +36,9 @@ LENGTHS = {"haoaroa": 20.3, "astar": 20.5, "jps": 20.8, "lbsgf": 21.4, "bezier":
 """Table 2 by its text [m]; the world, the start and the goal are not told."""
 
 POPULATION, ITERATIONS, RUNS = 20, 1000, 20
-"""Of the searches on functions. Iterations of the planner's: 100."""
+"""Of the searches on functions."""
+PLANNER_ITERATIONS = 100
+"""Of the planner's search, with the same population."""
 
 GAINS = {"KP": 1.3254, "KI": 0.4627, "KD": 0.1892, "LAMBDA": 0.3127, "MU": 0.3419}
 """The tuned gains of Fig. 6, named as the ends of our parameters' names; units and loop are not told."""
@@ -58,6 +60,13 @@ SLOPES = ((-0.5, 1, -0.5), (0, -2, 1), (0.5, 1, -1), (0, 0, 0.5))
 
 MIXER = ((1, 1, 1, 1), (1, -1, 1, -1), (1, -1, 1, -1), (1, -1, 1, -1))
 """Eq. 24, the signs of the four squared rotor speeds in thrust and the three moments; each row has a factor."""
+
+VERTICAL = (-1, -1)
+"""Eq. 25, third line: the signs of thrust and of weight in the vertical acceleration."""
+NORM_INSIDE = False
+"""Eq. 37, a length: whether the norm is taken of C' before its integral, or of the integral."""
+OBSTACLE_POWER = 2
+"""Eq. 39: of the distance from an obstacle's centre, times a weight."""
 
 WORDS = {
     "sphere": "simple, unimodal, convex",

@@ -18,6 +18,8 @@ from campaigns.paper.verdicts import Verdict
 from campaigns.tuning.compare import LAWS
 from companion.cli.worlds import CLEARANCE, VEHICLE_RADIUS
 from companion.drivers.provenance import revision, version
+from fakevehicle.control.gains import PARAMETERS, PRESETS
+from planner import shape
 
 PAGE, FIGURES, RESULTS, WORK = "paper.md", "paper", "results.json", "work"
 FLYING = ("planner", "companion", "fakevehicle", "wire")
@@ -124,6 +126,9 @@ def assembled(sizes: Sizes, rows: dict[str, Any]) -> dict[str, Any]:
             "percentile": PERCENTILE,
             "hull": VEHICLE_RADIUS,
             "clearance": CLEARANCE[sizes.families[0]],
+            "planner_iterations": shape.ITERATIONS,
+            "planner_elites": shape.ELITES,
+            "printed_iterations": printed.PLANNER_ITERATIONS,
         },
         "wind": holding.WIND,
         "functions": functions.table(),
@@ -133,13 +138,20 @@ def assembled(sizes: Sizes, rows: dict[str, Any]) -> dict[str, Any]:
         "searches": [{k: v for k, v in row.items() if k != "points"} for row in rows["searches"]],
         "by_contender": search.by_contender(rows["searches"]),
         "holds": holding.by_gains(rows["holds"]),
-        "laws": rows["laws"],
+        "laws": rows["laws"] | {"presets": _presets(rows["laws"]["gains"])},
         "optimisers": rows["optimisers"],
     }
     claims = results["claims"] = judge(results)
     counts = {verdict.value: sum(claim["verdict"] == verdict for claim in claims) for verdict in Verdict}
     results["verdicts"] = {"claims": len(claims), **counts}
     return results
+
+
+def _presets(tuned: dict[str, dict[str, float]]) -> dict[str, dict[str, float]]:
+    """What the tuning of each law began with, of the gains that are told."""
+    defaults = {parameter.name: parameter.default for parameter in PARAMETERS}
+    presets = {law: {**defaults, **PRESETS[LAWS[law][0]]} for law in tuned}
+    return {law: {term: float(presets[law][f"FT_VXY_{term}"]) for term in tuned[law]} for law in tuned}
 
 
 def _with(
