@@ -4,13 +4,14 @@ In place, and so that it can be killed at any moment and begun again:
 - what is missing is only the end (a crash, a full disk): the end is written over what hangs behind the last whole
   record and holds nothing, then the file is cut there
 - something in the middle is damaged, or there is something to be kept of a chunk that is cut off: everything whole is
-  copied to a file beside, which then takes its place
+  copied to a file beside, which then takes its place; with no room for it, what is of a chunk cut off is given up
 
 Only what proves itself is kept (`logs.scan`), so nothing wrong is read from a recovered file, and never less than a
 reader would have got that goes from front to back and checks. A file that somebody writes is left alone: a recorder
 holds a lock on it.
 """
 
+import errno
 import mmap
 import os
 import stat
@@ -28,11 +29,12 @@ from logs.container import LIBRARY, MAGIC, PROFILE, Summary, bare_tail, bytes_of
 from logs.errors import RecordingError
 from logs.lock import lock
 from logs.reader import RECOVERY
-from logs.scan import Piece, Scan, chunk_stated, message_at, read_attachment, read_metadata, scan
+from logs.scan import MOST_TRIED, Piece, Scan, chunk_stated, message_at, read_attachment, read_metadata, scan
 from logs.unpack import records_of
 
 SUFFIX = ".recovering"
 _BLOCK = 1024 * 1024
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,8 @@ def _recover(path: Path, file: BinaryIO) -> Recovered:
             raise RecordingError(path, f"not an MCAP file (it begins with {data[: len(MAGIC)]!r})")
         found = Scan(size)
         pieces = list(scan(data, found))
+        if found.tried > MOST_TRIED * size:
+            found.problem += f"; what checksums over {MOST_TRIED} times its size had not proved was given up"
         for channel in list(found.channels.values()):
             if channel.schema_id and channel.schema_id not in found.schemas:
                 del found.channels[channel.id]  # what it says cannot be told any more
@@ -142,8 +146,18 @@ def _recover(path: Path, file: BinaryIO) -> Recovered:
         if not outcome.changed:
             return outcome
         if kept is None:
-            _copy(path, data, pieces, found, fresh, outcome)
-            return outcome
+            try:
+                _copy(path, data, pieces, found, fresh, outcome)
+            except OSError as error:
+                if error.errno not in _NO_ROOM or pieces[-1].kind != "torn":
+                    raise
+                pieces = _without_torn(pieces, found)
+                kept = _whole_in_front(pieces, _made_anew(pieces, found)) if len(pieces) > 1 else None
+                if kept is None:
+                    raise
+                outcome = _outcome(path, pieces, found)
+            else:
+                return outcome
         end: list[bytes] = []
         crc = _rewrite(data, pieces, found, fresh, kept, end.append, outcome)
     _write_over(file, kept, (b"".join(end), bare_tail(crc)))
@@ -208,6 +222,15 @@ def _whole_in_front(pieces: Sequence[Piece], fresh: Mapping[int, list[bytes]]) -
         if piece.kind == "chunk" and piece.indexes is None:
             return piece.end if number == last else None
     return position
+
+
+def _without_torn(pieces: list[Piece], found: Scan) -> list[Piece]:
+    """All but the last, which is cut off, and only what they declare."""
+    pieces = pieces[:-1]
+    found.schemas = {schema.id: schema for piece in pieces for schema in piece.schemas}
+    found.channels = {channel.id: channel for piece in pieces for channel in piece.channels}
+    found.problem += "; with no room for a copy, the whole messages at its end were given up"
+    return pieces
 
 
 def _rewrite(

@@ -216,6 +216,46 @@ def test_a_recovery_that_is_killed_loses_nothing_of_a_torn_chunk_nor_what_others
         assert path.stat().st_mode & 0o777 == 0o640
 
 
+@pytest.mark.parametrize("error", [errno.ENOSPC, errno.EDQUOT])
+def test_with_no_room_for_a_copy_the_torn_end_is_given_up_and_that_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: int
+) -> None:
+    path, rng = tmp_path / "torn.mcap", random.Random(5)
+    with path.open("wb") as file:
+        writer = Writer(file, chunk_size=1 << 20)
+        writer.start()
+        for name in ("/a", "/b"):  # the second is declared in the chunk that is cut off
+            channel = writer.register_channel(name, "bytes", 0)
+            for number in range(3000):
+                writer.add_message(channel, number, rng.randbytes(500), number, number)
+        writer.finish()
+    data = path.read_bytes()
+    chunks = [(start, end) for kind, start, end in records(data) if kind == Opcode.CHUNK]
+    start, end = chunks[1]
+    torn = data[: (start + end) // 2]
+    path.write_bytes(torn)
+    before = linear(torn)
+
+    def full(*arguments: Any) -> None:
+        raise OSError(error, os.strerror(error))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(recovery_module, "_rewrite", _failing_at_zero(recovery_module._rewrite, full))
+        outcome = recover(path)
+    assert outcome.lossy
+    assert outcome.lost_bytes == len(torn) - start
+    assert "with no room for a copy" in outcome.problem
+    assert strict(path) == before
+    assert len(before) == outcome.messages > 1000
+    assert [entry.name for entry in tmp_path.iterdir()] == ["torn.mcap"]
+    assert not recover(path).changed
+
+
+def _failing_at_zero(true: Any, fail: Any) -> Any:
+    """Writing a whole copy fails; writing an end does not."""
+    return lambda *arguments: (fail if arguments[4] == 0 else true)(*arguments)
+
+
 @pytest.mark.parametrize("compression", [CompressionType.ZSTD, CompressionType.LZ4, CompressionType.NONE])
 @pytest.mark.parametrize("chunked", [True, False])
 def test_files_of_other_writers_are_recovered_too(tmp_path: Path, compression: CompressionType, chunked: bool) -> None:
@@ -316,9 +356,10 @@ def test_records_in_records_in_records_are_given_up_in_time(whole: Path, tmp_pat
     ]
     path.write_bytes(data + b"".join(heads) + b"####")
     began = time.process_time()
-    recover(path)
+    outcome = recover(path)
     assert time.process_time() - began < 5.0
     assert strict(path)
+    assert "what checksums over 16 times its size had not proved was given up" in outcome.problem
 
 
 def test_a_recovery_killed_at_any_write_can_be_begun_again(whole: Path, tmp_path: Path) -> None:
