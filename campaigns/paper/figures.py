@@ -75,7 +75,8 @@ def paths(figure: Figure, results: Results, rows: Mapping[str, Any]) -> None:
                 axes.plot(*points[-1, :2], "*", color="black", ms=11)
         axes.set(xlabel="north [m]", ylabel="east [m]")
         axes.set_title(f"{family} (pale: nearer than hull and clearance)", loc="left", fontsize=10)
-        axes.legend(fontsize=8, loc="lower left", framealpha=0.9)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(fontsize=8, loc="lower left", framealpha=0.9)
 
 
 def lengths(figure: Figure, results: Results, rows: Mapping[str, Any]) -> None:
@@ -190,7 +191,7 @@ def gains(figure: Figure, results: Results, rows: Mapping[str, Any]) -> None:
     half = [row["offset_half"] or 0.0 for row in held]
     bars.bar([row["gains"] for row in held], [row["offset_m"] for row in held], yerr=half, color=colors, capsize=4)
     for i, row in enumerate(held):
-        bars.text(i, row["offset_m"], f"{row['offset_m']:.3f}", ha="center", va="bottom", fontsize=9)
+        bars.text(i, row["offset_m"] + half[i], f"{row['offset_m']:.3f}", ha="center", va="bottom", fontsize=9)
     bars.set(ylabel="offset from the place, mean [m]")
     bars.set_title(f"held in {results['wind']:.0f} m/s of steady wind", loc="left", fontsize=10)
     bars.grid(axis="y", alpha=0.25)

@@ -135,7 +135,7 @@ def best_tuner(results: Results) -> Finding:
         figures |= {} if known else {f"half_{name}": None}
         told.append(TUNERS[name] + form.replace("#", name))
     why = (
-        "mean cost of {runs} runs of {budget} evaluations each, and HAOAROA's less it: "
+        "mean of {runs} costs after {budget} evaluations each, in brackets HAOAROA's less it: "
         + ", ".join(told)
         + "; beyond chance HAOAROA is below {worse} of {others}, and {better} are below it; "
     )

@@ -71,9 +71,9 @@ def ahead(
         for rival, row in zip(rivals, rows, strict=True):
             figures |= {f"{rival}_{name}": row[name] for name in ("n", "ratio", "low", "high")}
             times = _TIMES.replace("%", form) if row["low"] is not None else " -"
-            count = "" if alike else f" in {{#_n}} {places}"
+            count = "" if alike else " in {#_n}"
             each.append(printed.METHODS[rival] + (times + count).replace("#", rival))
-        where = f" in {{n}} {places}" if alike else ""
+        where = f" in {{n}} {places}" if alike else f" in {places}, so many each"
         return Finding(held(all(map(clearly, rows))), f"{sentence}{where}: " + ", ".join(each), figures)
 
     return rule
@@ -142,7 +142,7 @@ def corners(results: Results) -> Finding:
     families = {row["family"] for row in results["planners"]}
     ours = [by[f, "haoaroa"]["curvature_max"] for f in families if (f, "haoaroa") in by]
     stops = [f for f in families if all((f, m) in by and by[f, m]["curvature_max"] is None for m in ("astar", "jps"))]
-    smooth = len(ours) == len(families) and None not in ours
+    smooth = 0 < len(ours) == len(families) and None not in ours
     figures = {"stops": len(stops), "of": len(families), "curvature": max(ours) if smooth else None}
     return Finding(
         held(smooth and len(stops) == len(families)),
