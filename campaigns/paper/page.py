@@ -141,7 +141,8 @@ def planners(results: Results, figures: str) -> Iterator[str]:
         for row in results["planners"]
     )
     yield (
-        "Flown: tracking error and clearance of the hull, medians; *largest* and *least* are those of all flights. "
+        "Flown: tracking error and clearance of the hull; medians, *largest* and *least* are those of all flights, and "
+        "claims are judged on those flown well. "
         "*Flown well* is what ended as its mission expects (`companion worlds` writes them): there, without touching "
         "anything, and within the bounds on error and clearance, which some stops at the corners of a polyline miss."
     )
@@ -164,7 +165,8 @@ def searches(results: Results, figures: str) -> Iterator[str]:
         f"{setup['dimension']}; runs that end within {setup['target']:.0e} of f\\*, and the median of f - f\\*. "
         "*Moved* is the same function with its minimum moved within the same domain: an algorithm that is drawn to "
         "the origin loses there what it won before. *Literal* is what is printed, *canonical* the original "
-        "algorithms as they are usually run; with neither, products of coordinates are products of differences "
+        "algorithms as they are usually run; with neither, *shift-invariant*, products of coordinates are products of "
+        "differences. Claims are judged by the first two, either of which the paper can have run, on plain functions "
         "([search.md](search.md))."
     )
     yield ""
