@@ -32,7 +32,7 @@ def log_info(log: LogFile, json: Json = False) -> None:
 def log_recover(
     logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Recordings (MCAP).")], json: Json = False
 ) -> None:
-    """Make recordings whole that were not closed, cut short or damaged, with their later parts, in place (exit 3: some is lost)."""
+    """Make recordings with all their parts whole: not closed, cut short or damaged (exit 3: something is lost)."""
     from companion.cli.log import recover_logs
 
     raise typer.Exit(recover_logs(logs, json))
