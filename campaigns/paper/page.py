@@ -166,8 +166,8 @@ def searches(results: Results, figures: str) -> Iterator[str]:
         "*Moved* is the same function with its minimum moved within the same domain: an algorithm that is drawn to "
         "the origin loses there what it won before. *Literal* is what is printed, *canonical* the original "
         "algorithms as they are usually run; with neither, *shift-invariant*, products of coordinates are products of "
-        "differences. Claims are judged by the first two, either of which the paper can have run, on plain functions "
-        "([search.md](search.md))."
+        "differences. Which of the three the paper ran it does not tell: a claim is reproduced when it holds in any, "
+        "on plain functions ([search.md](search.md))."
     )
     yield ""
     rows = (

@@ -1,8 +1,8 @@
 """Rules on the searches on functions.
 
-The paper's algorithms are run in three readings, and every rule asks the same ones of every algorithm. The paper can
-have run two of them, what it prints and its sources' own algorithms (`THEIRS`): a claim is reproduced when it holds in
-either, on the functions as they are. The third reading is ours; it and what moving the minima does are told beside.
+The paper's algorithms are run in three readings, and every rule asks the same ones of every algorithm: what is printed,
+its sources' own algorithms, and ours. Which of them the paper ran it does not tell, so a claim is reproduced when it
+holds in any, on the functions as they are; what moving the minima does is told beside.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,8 +13,6 @@ from campaigns.paper.verdicts import Figures, Finding, Results, held, refuted
 
 READINGS = {"literal": "literal", "canonical": "canonical", "ours": "shift-invariant"}
 """Each reading and its name in sentences."""
-THEIRS = ("literal", "canonical")
-"""Those that the paper can have run."""
 PARENTS = ("AOA", "ROA")
 FIVE = ("best", "worst", "mean", "median", "std")
 
@@ -30,7 +28,7 @@ def searches(results: Results, algorithm: str, reading: str, moved: bool) -> lis
 def by_reading(
     count: Callable[[str, bool], int], form: str, enough: Callable[[int], bool], of: int
 ) -> tuple[bool, str, Figures]:
-    """Whether a count of any of THEIRS is enough; and every reading's, plain and moved, as a sentence with figures.
+    """Whether a count is enough in any reading; and every reading's, plain and moved, as a sentence with figures.
 
     Parameters
     ----------
@@ -41,7 +39,7 @@ def by_reading(
     for reading in READINGS:
         figures |= {f"{reading}_plain": count(reading, False), f"{reading}_moved": count(reading, True)}
     told = ", ".join(f"{name} {form.replace('#', reading)}" for reading, name in READINGS.items())
-    return any(enough(figures[f"{reading}_plain"]) for reading in THEIRS), told, figures
+    return any(enough(figures[f"{reading}_plain"]) for reading in READINGS), told, figures
 
 
 PLAIN_MOVED = "{#_plain} and {#_moved}"

@@ -222,8 +222,8 @@ class Change:
     bad: dict[str, object]
 
 
-PARENTS = ("AOA canonical", "ROA canonical", "AOA literal", "ROA literal")
-THEIRS = ("HAOAROA canonical", "HAOAROA literal")
+PARENTS = ("AOA", "ROA", "AOA canonical", "ROA canonical", "AOA literal", "ROA literal")
+READINGS = ("HAOAROA", "HAOAROA canonical", "HAOAROA literal")
 ZEROS = dict.fromkeys(search_rules.FIVE, 0.0)
 RIVAL_LAWS = {"rms_m": 0.1, "change_percent": -20.0, "change_percent_half": 21.0}
 LOST = dict.fromkeys(RIVAL_LAWS)
@@ -255,7 +255,7 @@ CHANGES = (
     Change("on every function", "searches", {"contender": "HAOAROA literal"}, {"mean": -1.0}, {"mean": 1e9}),
     Change("on every function", "searches", {"contender": "HAOAROA canonical"}, {"mean": -1.0}, {"mean": 1e9}),
     Change("never end", "searches", {"contender": PARENTS}, {"exact": 0}, {"exact": 1}),
-    Change("five landscapes", "searches", {"contender": THEIRS}, {"at_minimum": RUNS}, {"at_minimum": RUNS - 1}),
+    Change("five landscapes", "searches", {"contender": READINGS}, {"at_minimum": RUNS}, {"at_minimum": RUNS - 1}),
     *(
         Change(
             "escape local",
@@ -312,11 +312,15 @@ def test_a_claim_is_reproduced_only_by_results_that_bear_it_out(change):
         assert finding(change.says, changed(results_of(), change, values)).verdict is verdict
 
 
-def test_our_own_reading_decides_no_claim_on_the_papers_algorithms():
-    ours = Change("", "searches", {"contender": "HAOAROA"}, {}, {})
-    best = changed(results_of(), ours, ZEROS | {"mean": -1.0, "reached": RUNS, "exact": RUNS})
-    for says in ("on all nine", "in every run", "on every function"):
-        assert finding(says, best).verdict is Verdict.NOT
+@pytest.mark.parametrize("reading", READINGS)
+def test_a_claim_on_the_papers_algorithms_holds_when_it_holds_in_any_reading(reading):
+    change = Change("", "searches", {"contender": reading}, {}, {})
+    for says, best in (
+        ("on all nine", ZEROS),
+        ("in every run", {"reached": RUNS}),
+        ("on every function", {"mean": -1.0}),
+    ):
+        assert finding(says, changed(results_of(), change, best)).verdict is Verdict.REPRODUCED
 
 
 def test_what_moving_the_minima_does_and_every_reading_are_told_by_name():
