@@ -69,12 +69,6 @@ class Store:
     def runs(self) -> Path:
         return self.folder / "runs"
 
-    @property
-    def of_other_sources(self) -> bool:
-        """Whether it was begun by other sources than ours, of the same version."""
-        begun: object = self.told.get("versions")
-        return isinstance(begun, dict) and begun.get("source") != versions()["source"]
-
     def done(self) -> set[str]:
         """Ids of the runs that are done, as far as their names tell.
 

@@ -63,10 +63,6 @@ def fly_sweep(
         here = stack.enter_context(closing(local(jobs)))
         there = here if scheduler is None else stack.enter_context(closing(_dask(scheduler)))
         store = open_store(folder, sweep, resume)
-        if store.of_other_sources:
-            begun = store.told.get("revision") or "unknown"
-            told = f"{folder}: begun by other sources (revision {begun}) of this version"
-            print(f"companion: {told}: its rows may not be what these would give", file=sys.stderr)
         progress = _fly(sweep, store, shard_of(sweep.runs, *part), there, here)
     return _tell_end(store, progress, time.monotonic() - started, as_json)
 

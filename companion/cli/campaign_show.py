@@ -38,7 +38,7 @@ def show_campaign(folder: Path, by: Sequence[str], png: Path | None, as_json: bo
     store = Store(folder)
     rows = rows_so_far(store)
     for run_id in store.unreadable:
-        problem = f"{folder / 'runs' / run_id}: damaged, and left out; remove it, and --resume flies it again"
+        problem = f"{folder / 'runs' / run_id}: damaged, and left out; --resume flies it again"
         print(f"companion: {problem}", file=sys.stderr)
     return show_rows(folder, rows, len(store.run_ids), by, png, as_json)
 

@@ -170,17 +170,6 @@ def test_a_run_that_gives_another_row_now_is_told_column_by_column_with_exit_cod
     assert told["differing"]["phase"] == {"stored": "done", "again": "failed"}
 
 
-def test_it_says_so_when_it_was_begun_by_other_sources_of_the_same_version(companion) -> None:
-    companion("s.yaml")
-    file = Path("s-campaign/campaign.json")
-    told = json.loads(file.read_text())
-    told |= {"revision": "abc", "versions": {**told["versions"], "source": "another"}}
-    file.write_text(json.dumps(told))
-    code, _, err = companion("s.yaml", "--resume")
-    assert code == 0
-    assert "companion: s-campaign: begun by other sources (revision abc) of this version: its rows may not be" in err[1]
-
-
 def test_without_pyarrow_it_says_so_before_it_flies(companion, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     code, _, err = companion("s.yaml")
