@@ -238,7 +238,10 @@ def test_a_machine_without_the_extra_is_told_what_to_install(monkeypatch: pytest
 
 
 def test_a_scheduler_that_has_no_companion_is_told(tmp_path: Path) -> None:
-    with scheduler(search=()) as (_, address), pytest.raises(SchedulerError) as refused:
+    hidden = tmp_path / "campaigns" / "__init__.py"  # before one that may be installed
+    hidden.parent.mkdir()
+    hidden.write_text("raise ModuleNotFoundError\n")
+    with scheduler(search=(tmp_path,)) as (_, address), pytest.raises(SchedulerError) as refused:
         dask(address)
     assert str(refused.value).startswith(f"{address}: the scheduler has not the same companion: ModuleNotFoundError")
 
